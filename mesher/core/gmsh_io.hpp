@@ -1,0 +1,18 @@
+// Gmsh's .msh format, version 2.2 text: read by Gmsh, meshio and most solvers' converters.
+#pragma once
+
+#include <filesystem>
+
+#include "mesher/core/mesh.hpp"
+
+namespace cbc3d {
+
+/// Writes to exactly this path (the caller makes it atomic). Labels become physical groups named "label_N".
+/// Gmsh's physical tags are positive, so a mesh with a label <= 0 is refused with InputError. Throws JobError
+/// when writing fails.
+void write_gmsh(const Mesh& mesh, const std::filesystem::path& path);
+
+/// Reads version 2.2 text files; the first tag (physical group) is the label. Throws InputError.
+Mesh read_gmsh(const std::filesystem::path& path);
+
+}  // namespace cbc3d

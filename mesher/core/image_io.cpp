@@ -1,0 +1,373 @@
+#include "mesher/core/image_io.hpp"
+
+#include <itkImageIOFactory.h>
+#include <itkMetaImageIOFactory.h>
+#include <itkNiftiImageIOFactory.h>
+#include <itkNrrdImageIOFactory.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <unordered_map>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/core/inrimage.hpp"
+
+namespace cbc3d {
+namespace fs = std::filesystem;
+namespace {
+
+using Component = itk::ImageIOBase::IOComponentType;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw InputError("cannot read '" + path.string() + "': " + what);
+}
+
+/// The one line of an ITK exception that says something.
+std::string brief(const itk::ExceptionObject& error) {
+  std::string text = error.GetDescription();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const auto colon = text.rfind("): ");
+  if (colon != std::string::npos) {
+    text.erase(0, colon + 3);
+  }
+  return text.empty() ? "unknown fault" : text;
+}
+
+itk::ImageIOBase::Pointer open_header(const fs::path& path) {
+  auto io = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::CommonEnums::IOFileMode::ReadMode);
+  if (!io) {
+    fail(path, "not an image format that is known; give NIfTI, NRRD, MHA/MHD or INRIMAGE (.inr, .inr.gz)");
+  }
+  try {
+    io->SetFileName(path.string());
+    io->ReadImageInformation();
+  } catch (const itk::ExceptionObject& error) {
+    fail(path, brief(error) + "; repair its header, or resample it to an orthogonal grid");
+  }
+  return io;
+}
+
+void require_scalar_volume(const itk::ImageIOBase& io, const fs::path& path) {
+  if (io.GetNumberOfComponents() != 1) {
+    fail(path,
+         "it has " + std::to_string(io.GetNumberOfComponents()) +
+             " components a voxel (a colour or vector image); give a label image with one value a voxel");
+  }
+  const unsigned dimension = io.GetNumberOfDimensions();
+  if (dimension < 3) {
+    fail(path, "it is " + std::to_string(dimension) +
+                   "-dimensional; give a 3-D image (`cbc3d tile` stacks slices)");
+  }
+  for (unsigned axis = 3; axis < dimension; ++axis) {
+    if (io.GetDimensions(axis) != 1) {
+      fail(path, "it is " + std::to_string(dimension) + "-dimensional with " +
+                     std::to_string(io.GetDimensions(axis)) + " volumes; give one 3-D volume of it");
+    }
+  }
+}
+
+ImageFrame frame_of(const itk::ImageIOBase& io, const fs::path& path) {
+  ImageFrame frame;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const auto size = io.GetDimensions(axis);
+    if (size < 1 || size > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      fail(path, "its size along axis " + std::to_string(axis) + " is " + std::to_string(size));
+    }
+    frame.size[axis] = static_cast<int>(size);
+    frame.spacing_mm[axis] = io.GetSpacing(axis);
+    frame.origin_mm[axis] = io.GetOrigin(axis);
+    for (unsigned row = 0; row < 3; ++row) {
+      frame.direction(row, axis) = io.GetDirection(axis)[row];
+    }
+  }
+  if (!(frame.spacing_mm.min_coeff() > 0) || !frame.spacing_mm.all_finite() ||
+      !frame.origin_mm.all_finite()) {
+    fail(path, "its spacing or origin is not a positive finite number; repair its header");
+  }
+  return frame;
+}
+
+/// Directions from text headers are rounded; anything beyond rounding is shear, which no orthogonal frame
+/// expresses.
+void orthonormalise(ImageFrame& frame, const fs::path& path) {
+  const Mat3 product = frame.direction.transposed() * frame.direction;
+  double shear = 0;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      shear = std::fmax(shear, std::abs(product(row, column) - (row == column ? 1 : 0)));
+    }
+  }
+  if (!std::isfinite(shear) || shear > 1e-3) {
+    fail(path, "its direction matrix is sheared or singular; resample it to an orthogonal grid");
+  }
+  if (product == Mat3::identity()) {
+    return;  // a signed permutation is exact already
+  }
+  const Vec3 x = frame.direction.column(0).normalized();
+  const Vec3 second = frame.direction.column(1);
+  const Vec3 y = (second - x * x.dot(second)).normalized();
+  const Vec3 z = x.cross(y);
+  frame.direction = Mat3::from_columns(x, y, frame.left_handed() ? -z : z);
+}
+
+/// Value -> material, in two steps: collect the distinct values, then look each voxel up.
+template <typename T>
+class Classifier {
+ public:
+  Classifier(const T* values, std::size_t count, const fs::path& path)
+      : values_(values), count_(count), path_(path) {}
+
+  void run(LabelImage& image) {
+    collect();
+    assign_labels(image);
+    image.voxels.resize(count_);
+#pragma omp parallel
+    {
+      T last = T{};
+      MaterialId material = material_.at(T{});
+#pragma omp for
+      for (std::size_t v = 0; v < count_; ++v) {
+        if (values_[v] != last) {
+          last = values_[v];
+          material = material_.at(last);
+        }
+        image.voxels[v] = material;
+      }
+    }
+  }
+
+ private:
+  void collect() {
+    material_[T{}] = kBackground;
+#pragma omp parallel
+    {
+      std::unordered_map<T, MaterialId> mine;
+      T last = T{};
+#pragma omp for nowait
+      for (std::size_t v = 0; v < count_; ++v) {
+        if (values_[v] != last) {
+          last = values_[v];
+          if (mine.size() <= kMostLabels) {
+            mine.emplace(last, kBackground);
+          }
+        }
+      }
+#pragma omp critical(cbc3d_classifier)
+      material_.insert(mine.begin(), mine.end());
+    }
+    if (material_.size() > kMostLabels) {
+      fail(path_, "it has more than 65536 different values; give a label image, not a grey one");
+    }
+  }
+
+  void assign_labels(LabelImage& image) {
+    std::vector<T> distinct;
+    for (const auto& [value, material] : material_) {
+      require_label(value);
+      if (value != T{}) {
+        distinct.push_back(value);
+      }
+    }
+    std::sort(distinct.begin(), distinct.end());
+    image.labels.assign(1, 0);
+    for (const T value : distinct) {
+      material_[value] = static_cast<MaterialId>(image.labels.size());
+      image.labels.push_back(static_cast<Label>(value));
+    }
+  }
+
+  void require_label(T value) const {
+    std::ostringstream text;
+    text << +value;
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!std::isfinite(value) || value != std::floor(value)) {
+        fail(path_, "it has the fractional value " + text.str() +
+                        "; give integer labels (threshold or round it first)");
+      }
+    }
+    if (static_cast<long double>(value) > std::numeric_limits<Label>::max() ||
+        static_cast<long double>(value) < std::numeric_limits<Label>::min()) {
+      fail(path_, "its label " + text.str() + " does not fit 32 bits; renumber the labels");
+    }
+  }
+
+  static constexpr std::size_t kMostLabels = 65536;
+  const T* values_;
+  std::size_t count_;
+  const fs::path& path_;
+  std::unordered_map<T, MaterialId> material_;
+};
+
+template <typename T>
+void classify(const void* bytes, LabelImage& image, const fs::path& path) {
+  Classifier<T>(static_cast<const T*>(bytes), image.frame.voxel_count(), path).run(image);
+}
+
+void classify_component(Component component, const void* bytes, LabelImage& image, const fs::path& path) {
+  switch (component) {
+    case Component::UCHAR:
+      return classify<unsigned char>(bytes, image, path);
+    case Component::CHAR:
+      return classify<signed char>(bytes, image, path);
+    case Component::USHORT:
+      return classify<unsigned short>(bytes, image, path);
+    case Component::SHORT:
+      return classify<short>(bytes, image, path);
+    case Component::UINT:
+      return classify<unsigned int>(bytes, image, path);
+    case Component::INT:
+      return classify<int>(bytes, image, path);
+    case Component::ULONG:
+      return classify<unsigned long>(bytes, image, path);
+    case Component::LONG:
+      return classify<long>(bytes, image, path);
+    case Component::ULONGLONG:
+      return classify<unsigned long long>(bytes, image, path);
+    case Component::LONGLONG:
+      return classify<long long>(bytes, image, path);
+    case Component::FLOAT:
+      return classify<float>(bytes, image, path);
+    case Component::DOUBLE:
+      return classify<double>(bytes, image, path);
+    default:
+      fail(path, "its pixel type is not known; convert it to an integer type");
+  }
+}
+
+LabelImage read_with_itk(const fs::path& path) {
+  const auto io = open_header(path);
+  require_scalar_volume(*io, path);
+  LabelImage image;
+  image.frame = frame_of(*io, path);
+  orthonormalise(image.frame, path);
+  itk::ImageIORegion region(io->GetNumberOfDimensions());
+  for (unsigned axis = 0; axis < io->GetNumberOfDimensions(); ++axis) {
+    region.SetSize(axis, io->GetDimensions(axis));
+    region.SetIndex(axis, 0);
+  }
+  io->SetIORegion(region);
+  const auto bytes = std::make_unique_for_overwrite<char[]>(io->GetImageSizeInBytes());
+  try {
+    io->Read(bytes.get());
+  } catch (const itk::ExceptionObject& error) {
+    fail(path, brief(error) + "; the file may be truncated, copy it again");
+  }
+  classify_component(io->GetComponentType(), bytes.get(), image, path);
+  return image;
+}
+
+LabelImage read_from_inrimage(const fs::path& path) {
+  InrimageVolume volume = read_inrimage(path);
+  LabelImage image;
+  image.frame = volume.frame;
+  classify<double>(volume.values.data(), image, path);
+  return image;
+}
+
+/// ITK registers its readers at static initialisation only where they are linked dynamically through its own
+/// macro; naming the three we promise costs nothing and does not depend on that.
+void register_formats() {
+  static const bool registered = [] {
+    itk::NiftiImageIOFactory::RegisterOneFactory();
+    itk::NrrdImageIOFactory::RegisterOneFactory();
+    itk::MetaImageIOFactory::RegisterOneFactory();
+    return true;
+  }();
+  static_cast<void>(registered);
+}
+
+template <typename T>
+std::vector<T> label_values(const LabelImage& image) {
+  std::vector<T> values(image.voxels.size());
+#pragma omp parallel for
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    values[v] = static_cast<T>(image.labels[image.voxels[v]]);
+  }
+  return values;
+}
+
+void write_values(itk::ImageIOBase& io, Component component, const void* values, const fs::path& path) {
+  io.SetComponentType(component);
+  try {
+    io.Write(values);
+  } catch (const itk::ExceptionObject& error) {
+    throw JobError("cannot write '" + path.string() + "': " + brief(error));
+  }
+}
+
+void describe(itk::ImageIOBase& io, const ImageFrame& frame) {
+  io.SetNumberOfDimensions(3);
+  io.SetPixelType(itk::CommonEnums::IOPixel::SCALAR);
+  io.SetNumberOfComponents(1);
+  io.SetUseCompression(true);
+  itk::ImageIORegion region(3);
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    io.SetDimensions(axis, static_cast<itk::SizeValueType>(frame.size[axis]));
+    io.SetSpacing(axis, frame.spacing_mm[axis]);
+    io.SetOrigin(axis, frame.origin_mm[axis]);
+    io.SetDirection(axis, {frame.direction(0, axis), frame.direction(1, axis), frame.direction(2, axis)});
+    region.SetSize(axis, static_cast<itk::SizeValueType>(frame.size[axis]));
+  }
+  io.SetIORegion(region);
+}
+
+/// The format is told by the extension, so the temporary file keeps it: ".name.part7" + extension.
+std::string image_extension(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.ends_with(".nii.gz") ? ".nii.gz" : path.extension().string();
+}
+
+}  // namespace
+
+LabelImage read_label_image(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    fail(path, "the file does not exist; check its name");
+  }
+  if (fs::is_directory(path, error)) {
+    fail(path, "it is a folder; name an image file");
+  }
+  register_formats();
+  LabelImage image = has_inrimage_extension(path) ? read_from_inrimage(path) : read_with_itk(path);
+  if (image.labels.size() < 2) {
+    fail(path, "every voxel is background (0); there is nothing to mesh");
+  }
+  return image;
+}
+
+void write_label_image(const LabelImage& image, const fs::path& path) {
+  register_formats();
+  const std::string extension = image_extension(path);
+  AtomicFile file(path);
+  fs::path temporary = file.temporary();
+  temporary += extension;
+  auto io = itk::ImageIOFactory::CreateImageIO(temporary.c_str(), itk::CommonEnums::IOFileMode::WriteMode);
+  if (!io || extension == ".mhd") {
+    throw InputError("cannot write '" + path.string() +
+                     "': unknown image format; use .nii, .nii.gz, .nrrd or .mha");
+  }
+  io->SetFileName(temporary.string());
+  describe(*io, image.frame);
+  const auto [lowest, highest] = std::minmax_element(image.labels.begin(), image.labels.end());
+  try {
+    if (*lowest >= 0 && *highest <= 255) {
+      write_values(*io, Component::UCHAR, label_values<unsigned char>(image).data(), path);
+    } else if (*lowest >= -32768 && *highest <= 32767) {
+      write_values(*io, Component::SHORT, label_values<short>(image).data(), path);
+    } else {
+      write_values(*io, Component::INT, label_values<int>(image).data(), path);
+    }
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
+  }
+  fs::rename(temporary, file.temporary());
+  file.commit();
+}
+
+}  // namespace cbc3d

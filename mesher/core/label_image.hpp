@@ -1,0 +1,82 @@
+// The segmented multi-label image: the ground on which every room stands.
+//
+// Notation: i, j, k   voxel indices, i fastest in memory;
+//           local mm  index times spacing: the frame of the image's own axes, origin at the centre of voxel
+//           (0,0,0); physical  LPS mm: origin + direction * local (the ITK convention).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/core/vec3.hpp"
+
+namespace cbc3d {
+
+/// A label value as the image's file has it (any 32-bit integer; 0 is background).
+using Label = std::int32_t;
+
+/// Index into LabelImage::labels; material 0 is background. Small, so that a voxel costs two bytes.
+using MaterialId = std::uint16_t;
+
+inline constexpr MaterialId kBackground = 0;
+
+/// Where the voxels of an image lie in physical space.
+struct ImageFrame {
+  Index3 size{0, 0, 0};              ///< voxels along each axis
+  Vec3 spacing_mm{1, 1, 1};          ///< distance of voxel centres along each axis, > 0
+  Vec3 origin_mm{0, 0, 0};           ///< physical position of the centre of voxel (0,0,0)
+  Mat3 direction{Mat3::identity()};  ///< columns: the image axes in physical space, orthonormal
+
+  [[nodiscard]] std::size_t voxel_count() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+  }
+  [[nodiscard]] std::size_t offset(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(size[0]) +
+           static_cast<std::size_t>(i);
+  }
+  [[nodiscard]] bool contains(int i, int j, int k) const {
+    return i >= 0 && j >= 0 && k >= 0 && i < size[0] && j < size[1] && k < size[2];
+  }
+  [[nodiscard]] Index3 index_of(std::size_t offset) const;
+  /// Centre of voxel (i,j,k) in local mm.
+  [[nodiscard]] Vec3 local_centre(int i, int j, int k) const {
+    return {i * spacing_mm[0], j * spacing_mm[1], k * spacing_mm[2]};
+  }
+  [[nodiscard]] Vec3 to_physical(const Vec3& local_mm) const { return origin_mm + direction * local_mm; }
+  [[nodiscard]] Vec3 to_local(const Vec3& physical_mm) const {
+    return direction.transposed() * (physical_mm - origin_mm);
+  }
+  /// True when the image axes form a left-handed system, so that a map to physical space turns elements
+  /// inside out.
+  [[nodiscard]] bool left_handed() const { return direction.determinant() < 0; }
+  /// Length of the space diagonal of one voxel, mm.
+  [[nodiscard]] double voxel_diagonal_mm() const { return spacing_mm.norm(); }
+};
+
+/// A label image in memory. Voxels hold material indices; `labels[m]` is the label value of material m.
+struct LabelImage {
+  ImageFrame frame;
+  std::vector<Label> labels{
+      0};  ///< labels[0] = 0 (background); the rest ascending and distinct when read from a file
+  std::vector<MaterialId> voxels;  ///< frame.voxel_count() entries, i fastest
+
+  [[nodiscard]] MaterialId at(int i, int j, int k) const { return voxels[frame.offset(i, j, k)]; }
+  /// Material at (i,j,k); background outside the image.
+  [[nodiscard]] MaterialId at_or_background(int i, int j, int k) const {
+    return frame.contains(i, j, k) ? at(i, j, k) : kBackground;
+  }
+  /// Material of the voxel whose centre is nearest to a local position; background outside the image.
+  [[nodiscard]] MaterialId at_local(const Vec3& local_mm) const;
+  [[nodiscard]] std::size_t material_count() const { return labels.size(); }
+  /// Number of voxels of every material, computed in parallel.
+  [[nodiscard]] std::vector<std::size_t> voxels_per_material() const;
+};
+
+/// True when a voxel has a face neighbour of another material; the outside of the image counts as background.
+/// This is the paper's boundary voxel (its signed distance map is zero there).
+bool is_boundary_voxel(const LabelImage& image, int i, int j, int k);
+
+}  // namespace cbc3d

@@ -1,0 +1,236 @@
+#include "mesher/core/mesh_io.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCommand.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkUnstructuredGridWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <string>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/core/gmsh_io.hpp"
+
+namespace cbc3d {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kLabelArray = "label";
+
+/// VTK tells of faults through observers, not exceptions.
+class FaultCatcher : public vtkCommand {
+ public:
+  static FaultCatcher* New() { return new FaultCatcher; }
+  void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* data) override {
+    if (text.empty() && data != nullptr) {
+      text = static_cast<const char*>(data);
+    }
+  }
+  std::string text;
+};
+
+/// VTK's wedge has its first triangle's normal pointing away from the second; Verdict's, and ours, towards
+/// it.
+constexpr int kWedgeOrder[6] = {0, 2, 1, 3, 5, 4};
+
+template <int Nodes>
+void append(const CellBlock<Nodes>& block, int vtk_type, vtkCellArray& cells, vtkUnsignedCharArray& types,
+            vtkIntArray& labels) {
+  for (std::size_t c = 0; c < block.size(); ++c) {
+    vtkIdType ids[Nodes];
+    for (int n = 0; n < Nodes; ++n) {
+      const int from = vtk_type == VTK_WEDGE ? kWedgeOrder[n % 6] : n;
+      ids[n] = block.nodes[c][static_cast<std::size_t>(from)];
+    }
+    cells.InsertNextCell(Nodes, ids);
+    types.InsertNextValue(static_cast<unsigned char>(vtk_type));
+    labels.InsertNextValue(block.labels[c]);
+  }
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Mesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    points->SetPoint(static_cast<vtkIdType>(v), &mesh.points[v].x);
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->AllocateEstimate(static_cast<vtkIdType>(mesh.cell_count()), 4);
+  vtkNew<vtkUnsignedCharArray> types;
+  vtkNew<vtkIntArray> labels;
+  labels->SetName(kLabelArray);
+  append(mesh.tets, VTK_TETRA, *cells, *types, *labels);
+  append(mesh.pyramids, VTK_PYRAMID, *cells, *types, *labels);
+  append(mesh.wedges, VTK_WEDGE, *cells, *types, *labels);
+  append(mesh.hexes, VTK_HEXAHEDRON, *cells, *types, *labels);
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(points);
+  grid->SetCells(types, cells);
+  grid->GetCellData()->AddArray(labels);
+  grid->GetCellData()->SetActiveScalars(kLabelArray);
+  return grid;
+}
+
+template <typename Writer>
+void run_writer(Writer& writer, const Mesh& mesh, const fs::path& path) {
+  vtkNew<FaultCatcher> faults;
+  writer.AddObserver(vtkCommand::ErrorEvent, faults);
+  const auto grid = to_vtk(mesh);
+  writer.SetInputData(grid);
+  writer.SetFileName(path.c_str());
+  if (writer.Write() != 1 || writer.GetErrorCode() != 0 || !faults->text.empty()) {
+    throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
+  }
+}
+
+void write_vtu(const Mesh& mesh, const fs::path& path) {
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(1);
+  run_writer(*writer, mesh, path);
+}
+
+void write_legacy_vtk(const Mesh& mesh, const fs::path& path) {
+  vtkNew<vtkUnstructuredGridWriter> writer;
+  writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
+  writer->SetFileTypeToBinary();
+  run_writer(*writer, mesh, path);
+}
+
+template <int Nodes>
+void take_cell(CellBlock<Nodes>& block, const vtkIdType* ids, bool wedge, Label label) {
+  std::array<VertexId, Nodes> cell;
+  for (int n = 0; n < Nodes; ++n) {
+    cell[static_cast<std::size_t>(n)] = static_cast<VertexId>(ids[wedge ? kWedgeOrder[n % 6] : n]);
+  }
+  block.add(cell, label);
+}
+
+void take_cells(vtkUnstructuredGrid& grid, vtkDataArray& labels, Mesh& mesh, const fs::path& path) {
+  vtkNew<vtkIdList> list;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
+    const auto label = static_cast<Label>(labels.GetComponent(c, 0));
+    const int type = grid.GetCellType(c);
+    grid.GetCellPoints(c, list);
+    const vtkIdType* ids = list->GetPointer(0);
+    switch (type) {
+      case VTK_TETRA:
+        take_cell(mesh.tets, ids, false, label);
+        break;
+      case VTK_PYRAMID:
+        take_cell(mesh.pyramids, ids, false, label);
+        break;
+      case VTK_WEDGE:
+        take_cell(mesh.wedges, ids, true, label);
+        break;
+      case VTK_HEXAHEDRON:
+        take_cell(mesh.hexes, ids, false, label);
+        break;
+      case VTK_EMPTY_CELL:
+      case VTK_VERTEX:
+      case VTK_LINE:
+      case VTK_TRIANGLE:
+      case VTK_QUAD:
+        break;  // boundary markers of other tools
+      default:
+        throw InputError("cannot read '" + path.string() + "': it has cells of VTK type " +
+                         std::to_string(type) + "; known are linear tets, pyramids, wedges and hexes");
+    }
+  }
+}
+
+Mesh from_vtk(vtkUnstructuredGrid& grid, const fs::path& path) {
+  vtkDataArray* labels = grid.GetCellData()->GetArray(kLabelArray);
+  if (labels == nullptr) {
+    throw InputError("cannot read '" + path.string() +
+                     "': it has no cell array 'label'; add one integer label a cell");
+  }
+  Mesh mesh;
+  mesh.points.resize(static_cast<std::size_t>(grid.GetNumberOfPoints()));
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    grid.GetPoint(static_cast<vtkIdType>(v), &mesh.points[v].x);
+  }
+  take_cells(grid, *labels, mesh, path);
+  return mesh;
+}
+
+template <typename Reader>
+Mesh run_reader(const fs::path& path) {
+  vtkNew<Reader> reader;
+  vtkNew<FaultCatcher> faults;
+  reader->AddObserver(vtkCommand::ErrorEvent, faults);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  if (!faults->text.empty() || grid == nullptr || grid->GetNumberOfCells() == 0) {
+    throw InputError("cannot read '" + path.string() +
+                     "': not a VTK unstructured grid with cells, or a damaged one");
+  }
+  return from_vtk(*grid, path);
+}
+
+enum class Format { vtu, vtk, msh };
+
+Format format_of(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".vtu") return Format::vtu;
+  if (extension == ".vtk") return Format::vtk;
+  if (extension == ".msh") return Format::msh;
+  throw InputError("'" + path.string() + "': unknown mesh format '" + extension +
+                   "'; use .vtu, .vtk or .msh");
+}
+
+}  // namespace
+
+void require_writable_mesh_path(const fs::path& path) {
+  format_of(path);
+  require_writable(path);
+}
+
+void write_mesh(const Mesh& mesh, const fs::path& path) {
+  const Format format = format_of(path);
+  AtomicFile file(path);
+  switch (format) {
+    case Format::vtu:
+      write_vtu(mesh, file.temporary());
+      break;
+    case Format::vtk:
+      write_legacy_vtk(mesh, file.temporary());
+      break;
+    case Format::msh:
+      write_gmsh(mesh, file.temporary());
+      break;
+  }
+  file.commit();
+}
+
+Mesh read_mesh(const fs::path& path) {
+  const Format format = format_of(path);
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
+    throw InputError("cannot read '" + path.string() + "': the file does not exist; check its name");
+  }
+  switch (format) {
+    case Format::vtk:
+      return run_reader<vtkUnstructuredGridReader>(path);
+    case Format::msh:
+      return read_gmsh(path);
+    default:
+      return run_reader<vtkXMLUnstructuredGridReader>(path);
+  }
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,24 @@
+// Reading and writing meshes: .vtu (VTK XML), .vtk (VTK legacy 4.2, which Slicer and SOFA read), .msh
+// (Gmsh 2.2 text).
+#pragma once
+
+#include <filesystem>
+
+#include "mesher/core/mesh.hpp"
+
+namespace cbc3d {
+
+/// Checks, before any long work, that a mesh could be written to `path`: a known extension and a folder that
+/// can be written to. Throws InputError.
+void require_writable_mesh_path(const std::filesystem::path& path);
+
+/// Writes `mesh` in the format of the extension, cells carrying the integer array "label". The file appears
+/// under its final name only when it is complete. Throws InputError when the format is unknown, JobError when
+/// writing fails.
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path);
+
+/// Reads a mesh; the cell array "label" (for .msh the first tag) gives the labels. Other arrays are ignored,
+/// cells of lower dimension too. Throws InputError naming the file and the remedy.
+Mesh read_mesh(const std::filesystem::path& path);
+
+}  // namespace cbc3d

@@ -1,0 +1,41 @@
+#include "mesher/core/runtime.hpp"
+
+#include <itkMultiThreaderBase.h>
+#include <omp.h>
+#include <sys/resource.h>
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+
+namespace cbc3d {
+
+int set_thread_count(int threads) {
+  const int count = threads > 0 ? threads : std::max(1, omp_get_num_procs());
+  omp_set_num_threads(count);
+  itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(static_cast<itk::ThreadIdType>(count));
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(static_cast<itk::ThreadIdType>(count));
+  vtkSMPTools::Initialize(count);
+  return count;
+}
+
+namespace {
+rusage self_usage() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage;
+}
+}  // namespace
+
+double process_cpu_seconds() {
+  const rusage usage = self_usage();
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::int64_t process_peak_rss_bytes() {
+  return static_cast<std::int64_t>(self_usage().ru_maxrss) * 1024;
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,30 @@
+// What every command shares: thread count, seconds and memory used.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace cbc3d {
+
+/// Sets the thread count of OpenMP, ITK, VTK and, where they are linked in, the other pools. 0 means all
+/// cores. Returns the count in force.
+int set_thread_count(int threads);
+
+/// Wall-clock seconds since construction.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// CPU seconds (user + system, all threads) of this process so far.
+double process_cpu_seconds();
+
+/// Peak resident set size of this process so far, bytes.
+std::int64_t process_peak_rss_bytes();
+
+}  // namespace cbc3d
