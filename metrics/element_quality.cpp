@@ -151,10 +151,9 @@ double scaled_jacobian_tet(const std::array<Vec3, 4>& p) {
 }
 
 double scaled_jacobian_pyramid(const std::array<Vec3, 5>& p) {
-  const double smallest = std::min({scaled_jacobian_tet({p[0], p[1], p[2], p[4]}),
-                                    scaled_jacobian_tet({p[0], p[2], p[3], p[4]}),
-                                    scaled_jacobian_tet({p[0], p[1], p[3], p[4]}),
-                                    scaled_jacobian_tet({p[1], p[2], p[3], p[4]})});
+  const double smallest = std::min(
+      {scaled_jacobian_tet({p[0], p[1], p[2], p[4]}), scaled_jacobian_tet({p[0], p[2], p[3], p[4]}),
+       scaled_jacobian_tet({p[0], p[1], p[3], p[4]}), scaled_jacobian_tet({p[1], p[2], p[3], p[4]})});
   if (smallest <= 0) {
     return 0;
   }

@@ -12,8 +12,8 @@
 
 namespace cbc3d::metrics {
 
-/// The six dihedral angles of a tetrahedron, degrees in [0,180]; of an inverted one those of its mirror image.
-/// Edges in the order 01 02 03 12 13 23.
+/// The six dihedral angles of a tetrahedron, degrees in [0,180]; of an inverted one those of its mirror
+/// image. Edges in the order 01 02 03 12 13 23.
 std::array<double, 6> dihedral_angles_deg(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Verdict's scaled Jacobian of a tetrahedron: 1 regular, .9428 BCC, .7071 right corner, negative inverted;
@@ -38,7 +38,7 @@ inline constexpr double kDihedralBinDeg = 5;
 std::size_t dihedral_bin(double angle_deg);
 
 struct ElementQuality {
-  std::optional<double> min_dihedral_deg, max_dihedral_deg;     ///< over the tets
+  std::optional<double> min_dihedral_deg, max_dihedral_deg;      ///< over the tets
   std::array<std::int64_t, kDihedralBins> dihedral_histogram{};  ///< all six angles of every tet
   std::optional<double> min_sj_tets, min_sj_pyramids, min_sj_pyramids_bcc, min_sj_wedges, min_sj_hexes;
   std::int64_t inverted = 0;  ///< cells whose volume (see split_into_tets) is not positive
