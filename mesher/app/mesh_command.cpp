@@ -1,7 +1,8 @@
 #include "mesher/app/mesh_command.hpp"
 
+#include <algorithm>
 #include <charconv>
-#include <fstream>
+#include <functional>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -11,18 +12,20 @@
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/stages/mesh_image.hpp"
+#include "mesher/stages/presets.hpp"
 
 namespace cbc3d {
 namespace {
 
+/// What the command line asks to differ from the preset, in its order.
+using Override = std::function<void(MeshImageOptions&)>;
+
 struct MeshCommand {
   std::string image;
   std::string out;
-  std::string preset = "paper";
+  std::string preset = "quality";
   std::vector<std::string> material_fidelity;
-  std::string connectivity = "no";
-  std::string target_position = "voxel-centre";
-  std::string on_failure = "recover";
+  std::vector<Override> overrides;
   std::string report_file;
   std::string dump_stages;
   int threads = 0;
@@ -31,11 +34,18 @@ struct MeshCommand {
   MeshImageOptions options;
 };
 
-Connectivity connectivity_of(const std::string& name) {
-  return name == "vertex" ? Connectivity::vertex
-         : name == "edge" ? Connectivity::edge
-         : name == "face" ? Connectivity::face
-                          : Connectivity::no;
+template <typename Enum>
+using Names = std::vector<std::pair<const char*, Enum>>;
+
+const Names<Connectivity> kConnectivityNames = {
+    {"vertex", Connectivity::vertex}, {"edge", Connectivity::edge}, {"face", Connectivity::face}, {"no", Connectivity::no}};
+const Names<TargetPosition> kTargetPositionNames = {{"voxel-centre", TargetPosition::voxel_centre},
+                                                    {"voxel-faces", TargetPosition::voxel_faces}};
+const Names<OnFailure> kOnFailureNames = {{"stop", OnFailure::stop}, {"recover", OnFailure::recover}};
+
+template <typename Enum>
+std::string name_of(const Names<Enum>& names, Enum value) {
+  return std::find_if(names.begin(), names.end(), [value](const auto& n) { return n.second == value; })->first;
 }
 
 template <typename Number>
@@ -73,9 +83,9 @@ nlohmann::json options_json(const MeshCommand& c, const MeshImageReport& report)
           {"material_fidelity", material},
           {"max_distance_mm", o.refine.max_distance_mm},
           {"iterations", o.deform.iterations},
-          {"connectivity", c.connectivity},
-          {"target_position", c.target_position},
-          {"on_failure", c.on_failure},
+          {"connectivity", name_of(kConnectivityNames, o.deform.connectivity)},
+          {"target_position", name_of(kTargetPositionNames, o.deform.target_position)},
+          {"on_failure", name_of(kOnFailureNames, o.deform.on_failure)},
           {"young_pa", o.deform.elasticity.young_pa},
           {"poisson", o.deform.elasticity.poisson},
           {"min_dihedral_deg", o.deform.min_dihedral_deg},
@@ -146,10 +156,10 @@ void run(MeshCommand& command) {
   progress.step("reading " + command.image, 0);
   const LabelImage image = read_label_image(command.image);
   auto& options = command.options;
-  options.deform.connectivity = connectivity_of(command.connectivity);
-  options.deform.target_position =
-      command.target_position == "voxel-faces" ? TargetPosition::voxel_faces : TargetPosition::voxel_centre;
-  options.deform.on_failure = command.on_failure == "stop" ? OnFailure::stop : OnFailure::recover;
+  options = preset_options(command.preset, image.frame);
+  for (const Override& apply : command.overrides) {
+    apply(options);
+  }
   options.dump_stages = command.dump_stages;
   parse_material_fidelity(command, image, options.refine.material_fidelity);
   MeshImageReport report;
@@ -182,28 +192,56 @@ void run_reporting(MeshCommand& command) {
   }
 }
 
-void add_method_options(CLI::App& mesh, MeshCommand& c) {
-  auto& refine = c.options.refine;
-  auto& deform = c.options.deform;
-  mesh.add_option("--preset", c.preset, "paper: the published method")->check(CLI::IsMember({"paper"}))->capture_default_str();
-  mesh.add_option("--lattice-spacing", c.options.lattice_spacing_mm,
-                  "edge of the coarsest lattice cubes, mm (default: ten times the mean voxel spacing)")->check(CLI::PositiveNumber);
-  mesh.add_option("--fidelity", refine.fidelity, "F, refine a material while F1 or F2 is below it; in (0,1]")
-      ->check(CLI::Range(1e-6, 1.0))->capture_default_str();
-  mesh.add_option("--material-fidelity", c.material_fidelity, "LABEL=F: fidelity of one label (repeatable)");
-  mesh.add_option("--max-distance", refine.max_distance_mm,
-                  "refine where a boundary voxel has no interface vertex within so many mm (default: off)")->check(CLI::NonNegativeNumber);
-  mesh.add_option("--iterations", deform.iterations, "deformation iterations")->check(CLI::Range(0, 1000))->capture_default_str();
-  mesh.add_option("--connectivity", c.connectivity, "pattern that thins the target points: vertex, edge, face, no")
-      ->check(CLI::IsMember({"vertex", "edge", "face", "no"}))->capture_default_str();
-  mesh.add_option("--target-position", c.target_position, "targets at voxel-centre (the paper's) or voxel-faces (unbiased)")
-      ->check(CLI::IsMember({"voxel-centre", "voxel-faces"}))->capture_default_str();
-  mesh.add_option("--on-failure", c.on_failure, "elements below the minimum quality: stop (the paper's) or recover locally and go on")
-      ->check(CLI::IsMember({"stop", "recover"}))->capture_default_str();
-  mesh.add_option("--young-pa", deform.elasticity.young_pa, "Young's modulus, Pa")->check(CLI::PositiveNumber)->capture_default_str();
-  mesh.add_option("--poisson", deform.elasticity.poisson, "Poisson's ratio, in [0, 0.5)")->check(CLI::Range(0.0, 0.499))->capture_default_str();
-  mesh.add_option("--min-dihedral", deform.min_dihedral_deg, "smallest dihedral angle kept by the deformation, degrees")
-      ->check(CLI::Range(0.0, 60.0))->capture_default_str();
+/// Adds an option whose value goes into the field that `field` picks.
+template <typename Value, typename Field>
+CLI::Option* add_override(CLI::App& app, MeshCommand& c, const std::string& name, const std::string& text, Field field) {
+  return app.add_option_function<Value>(
+      name, [&c, field](const Value& value) { c.overrides.push_back([value, field](MeshImageOptions& o) { field(o) = value; }); }, text);
+}
+
+template <typename Enum, typename Field>
+void add_choice(CLI::App& app, MeshCommand& c, const std::string& name, const std::string& text, const Names<Enum>& names, Field field) {
+  std::vector<std::string> allowed;
+  for (const auto& n : names) {
+    allowed.emplace_back(n.first);
+  }
+  app.add_option_function<std::string>(
+         name,
+         [&c, &names, field](const std::string& value) {
+           const Enum chosen = std::find_if(names.begin(), names.end(), [&](const auto& n) { return value == n.first; })->second;
+           c.overrides.push_back([chosen, field](MeshImageOptions& o) { field(o) = chosen; });
+         },
+         text)
+      ->check(CLI::IsMember(allowed));
+}
+
+void add_lattice_options(CLI::App& mesh, MeshCommand& c) {
+  add_override<double>(mesh, c, "--lattice-spacing", "edge of the coarsest lattice cubes, mm [ten times the mean voxel spacing]",
+                       [](MeshImageOptions& o) -> double& { return o.lattice_spacing_mm; })->check(CLI::PositiveNumber);
+  add_override<double>(mesh, c, "--fidelity", "F: refine a material while its F1 or F2 is below; in (0,1] [0.95]",
+                       [](MeshImageOptions& o) -> double& { return o.refine.fidelity; })->check(CLI::Range(1e-6, 1.0));
+  mesh.add_option("--material-fidelity", c.material_fidelity, "LABEL=F: the fidelity of one label (repeatable)");
+  add_override<double>(mesh, c, "--max-distance",
+                       "refine also where a boundary voxel has no interface vertex within so many mm; 0: off [quality: two voxel "
+                       "diagonals, paper: off]",
+                       [](MeshImageOptions& o) -> double& { return o.refine.max_distance_mm; })->check(CLI::NonNegativeNumber);
+}
+
+void add_deformation_options(CLI::App& mesh, MeshCommand& c) {
+  add_override<int>(mesh, c, "--iterations", "deformation iterations [5]",
+                    [](MeshImageOptions& o) -> int& { return o.deform.iterations; })->check(CLI::Range(0, 1000));
+  add_choice(mesh, c, "--connectivity", "pattern that thins the target points: vertex, edge, face or no [no]", kConnectivityNames,
+             [](MeshImageOptions& o) -> Connectivity& { return o.deform.connectivity; });
+  add_choice(mesh, c, "--target-position", "targets at voxel-centre (half a voxel inside) or voxel-faces [quality: voxel-faces, paper: voxel-centre]",
+             kTargetPositionNames, [](MeshImageOptions& o) -> TargetPosition& { return o.deform.target_position; });
+  add_choice(mesh, c, "--on-failure", "where elements stay below the minimum quality: stop all, or recover there and go on [quality: recover, paper: stop]",
+             kOnFailureNames, [](MeshImageOptions& o) -> OnFailure& { return o.deform.on_failure; });
+  add_override<double>(mesh, c, "--young-pa", "Young's modulus, Pa [2100]",
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.young_pa; })->check(CLI::PositiveNumber);
+  add_override<double>(mesh, c, "--poisson", "Poisson's ratio, in [0, 0.5) [0.45]",
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.poisson; })->check(CLI::Range(0.0, 0.499));
+  add_override<double>(mesh, c, "--min-dihedral", "smallest dihedral angle that the deformation keeps, degrees [5]",
+                       [](MeshImageOptions& o) -> double& { return o.deform.min_dihedral_deg; })->check(CLI::Range(0.0, 60.0));
 }
 
 }  // namespace
@@ -213,11 +251,14 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   CLI::App* mesh = app.add_subcommand("mesh", "mesh a segmented image");
   mesh->add_option("image", command->image, "label image: NIfTI, NRRD, MHA/MHD or INRIMAGE")->required();
   mesh->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
-  add_method_options(*mesh, *command);
-  mesh->add_option("--seed", command->seed, "seed of the choices made by hash")->capture_default_str();
+  mesh->add_option("--preset", command->preset, "quality: our best so far; paper: the published method [quality]")
+      ->check(CLI::IsMember(preset_names()));
+  add_lattice_options(*mesh, *command);
+  add_deformation_options(*mesh, *command);
+  mesh->add_option("--seed", command->seed, "seed of the choices made by hash [1]");
   mesh->add_option("--report", command->report_file, "JSON file with options, counts, fidelity, seconds and warnings");
   mesh->add_option("--dump-stages", command->dump_stages, "folder for the mesh after each stage");
-  mesh->add_option("--threads", command->threads, "threads of all pools (default: all cores)")->check(CLI::Range(0, 1024));
+  mesh->add_option("--threads", command->threads, "threads of all pools [all cores]")->check(CLI::Range(0, 1024));
   mesh->add_flag("--quiet", command->quiet, "no progress");
   mesh->callback([command, &exit_code] {
     run_reporting(*command);

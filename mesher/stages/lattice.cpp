@@ -12,7 +12,11 @@ std::uint64_t VertexTable::key_of(const LatticePoint& point) {
 }
 
 std::size_t VertexTable::slot_of(std::uint64_t key) const {
-  std::uint64_t h = key * 0x9E3779B97F4A7C15ULL;
+  // Coordinates of coarse vertices are multiples of high powers of two: mix upwards and downwards, twice.
+  std::uint64_t h = key ^ (key >> 32U);
+  h *= 0x9E3779B97F4A7C15ULL;
+  h ^= h >> 29U;
+  h *= 0xBF58476D1CE4E5B9ULL;
   h ^= h >> 32U;
   std::size_t slot = h & (slots_.size() - 1);
   while (slots_[slot].key != kEmpty && slots_[slot].key != key) {

@@ -68,7 +68,7 @@ BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOption
   lattice.spacing_mm =
       options.lattice_spacing_mm > 0 ? options.lattice_spacing_mm : default_lattice_spacing_mm(image.frame);
   // Fidelity stops at the smallest voxel edge; a wire one voxel wide needs two more halvings to be held by several tets.
-  lattice.finest_spacing_mm = image.frame.spacing_mm.min_coeff() / (options.refine.max_distance_mm > 0 ? 4 : 1);
+  lattice.finest_spacing_mm = image.frame.spacing_mm.min_coeff() / 4;
   report.lattice_spacing_mm = lattice.spacing_mm;
   return lattice;
 }
@@ -96,7 +96,7 @@ Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progre
   if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
 
   RefineOptions refine = options.refine;
-  refine.finest_spacing_mm = image.frame.spacing_mm.min_coeff();
+  refine.finest_spacing_mm = image.frame.spacing_mm.min_coeff() * 0.5;
   report.refine = log.run("adaptive_refinement", 0.1, [&] {
     return refine_lattice(lattice, image, refine, [&](int round, std::size_t tets) {
       progress.step("adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",

@@ -1,0 +1,24 @@
+#include "mesher/stages/presets.hpp"
+
+#include "mesher/core/error.hpp"
+
+namespace cbc3d {
+
+std::vector<std::string> preset_names() { return {"quality", "paper"}; }
+
+MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame) {
+  MeshImageOptions options;
+  if (name == "quality") {
+    options.refine.max_distance_mm = 2 * frame.voxel_diagonal_mm();
+    options.deform.target_position = TargetPosition::voxel_faces;
+    options.deform.on_failure = OnFailure::recover;
+    return options;
+  }
+  if (name == "paper") {
+    options.deform.on_failure = OnFailure::stop;
+    return options;
+  }
+  throw InputError("--preset " + name + ": unknown; give quality or paper");
+}
+
+}  // namespace cbc3d
