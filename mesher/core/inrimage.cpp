@@ -1,6 +1,6 @@
 #include "mesher/core/inrimage.hpp"
 
-#include <itk_zlib.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <bit>

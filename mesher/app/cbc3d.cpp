@@ -1,0 +1,37 @@
+// The command `cbc3d`.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <new>
+
+#include "mesher/app/mesh_command.hpp"
+#include "mesher/core/error.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app{"CBC3D: from a segmented multi-label image to a tetrahedral mesh"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", CBC3D_VERSION);
+  int exit_code = cbc3d::kExitSuccess;
+  try {
+    cbc3d::add_mesh_command(app, exit_code);
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForAllHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForVersion& version) {
+    return app.exit(version);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "cbc3d: " << error.what() << " (see --help)\n";
+    return cbc3d::kExitBadInput;
+  } catch (const cbc3d::InputError& error) {
+    std::cerr << "cbc3d: " << error.what() << '\n';
+    return cbc3d::kExitBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "cbc3d: out of memory; use a larger --lattice-spacing or a machine with more memory\n";
+    return cbc3d::kExitJobFailed;
+  } catch (const std::exception& error) {
+    std::cerr << "cbc3d: " << error.what() << '\n';
+    return cbc3d::kExitJobFailed;
+  }
+  return exit_code;
+}

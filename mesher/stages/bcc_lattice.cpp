@@ -1,0 +1,193 @@
+#include "mesher/stages/bcc_lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "mesher/core/error.hpp"
+#include "mesher/stages/voxel_raster.hpp"
+
+namespace cbc3d {
+namespace {
+
+constexpr int kCoordinateBits = 21;
+
+struct Box {
+  std::array<int, 3> low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
+  std::array<int, 3> high{-1, -1, -1};
+  void add(int d, int low_index, int high_index) {
+    const auto axis = static_cast<std::size_t>(d);
+    low[axis] = std::min(low[axis], low_index);
+    high[axis] = std::max(high[axis], high_index);
+  }
+};
+
+Box labelled_box(const LabelImage& image) {
+  Box box;
+  const auto& size = image.frame.size;
+#pragma omp parallel
+  {
+    Box mine;
+#pragma omp for collapse(2) nowait
+    for (int k = 0; k < size[2]; ++k) {
+      for (int j = 0; j < size[1]; ++j) {
+        const MaterialId* row = image.voxels.data() + image.frame.offset(0, j, k);
+        const auto labelled = [](MaterialId m) { return m != kBackground; };
+        const MaterialId* first = std::find_if(row, row + size[0], labelled);
+        if (first != row + size[0]) {
+          const auto last = std::find_if(std::make_reverse_iterator(row + size[0]), std::make_reverse_iterator(row), labelled);
+          mine.add(0, static_cast<int>(first - row), static_cast<int>(last.base() - row) - 1);
+          mine.add(1, j, j);
+          mine.add(2, k, k);
+        }
+      }
+    }
+#pragma omp critical(cbc3d_labelled_box)
+    for (int d = 0; d < 3; ++d) {
+      box.add(d, mine.low[static_cast<std::size_t>(d)], mine.high[static_cast<std::size_t>(d)]);
+    }
+  }
+  return box;
+}
+
+struct Grid {
+  std::array<int, 3> cells{};
+  LatticeFrame frame;
+  int cell_units = 2;
+};
+
+/// One layer of cells more than the box needs on every side, the whole centred on it, so that a symmetric object gets a
+/// symmetric lattice and no labelled voxel lies outside it.
+Grid make_grid(const LabelImage& image, const BccLatticeOptions& options) {
+  const Box box = labelled_box(image);
+  Grid grid;
+  const double levels = std::floor(std::log2(std::max(1.0, options.spacing_mm / options.finest_spacing_mm)) + 1e-9);
+  int most_cells = 0;
+  std::array<double, 3> centre{};
+  for (int d = 0; d < 3; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    const double extent = (box.high[axis] - box.low[axis] + 1) * image.frame.spacing_mm[d];
+    centre[axis] = 0.5 * (box.high[axis] + box.low[axis]) * image.frame.spacing_mm[d];
+    const double needed = std::ceil(extent / options.spacing_mm) + 2;
+    if (needed * 2 >= static_cast<double>(1 << kCoordinateBits)) {
+      throw InputError("--lattice-spacing " + std::to_string(options.spacing_mm) +
+                       " mm is too small for this image; give at least " + std::to_string(extent / 1e5) + " mm");
+    }
+    grid.cells[axis] = static_cast<int>(needed);
+    most_cells = std::max(most_cells, grid.cells[axis]);
+  }
+  int max_level = static_cast<int>(std::min(levels, 20.0));
+  while (max_level > 0 && static_cast<std::int64_t>(most_cells) << (max_level + 1) >= (1 << kCoordinateBits)) {
+    --max_level;
+  }
+  grid.cell_units = 2 << max_level;
+  grid.frame.max_level = max_level;
+  grid.frame.unit_mm = options.spacing_mm / grid.cell_units;
+  for (int d = 0; d < 3; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    grid.frame.origin_mm[d] = centre[axis] - 0.5 * grid.cells[axis] * options.spacing_mm;
+  }
+  return grid;
+}
+
+using PointTet = std::array<LatticePoint, 4>;
+
+/// The four tets between the cell at `cell` and its neighbour along `axis`: the segment of the two cell centres with
+/// each edge of the face between them.
+std::array<PointTet, 4> tets_across_face(const Grid& grid, const Index3& cell, std::size_t axis) {
+  const int s = grid.cell_units;
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  LatticePoint centre{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    centre[d] = cell[d] * s + s / 2;
+  }
+  LatticePoint next = centre;
+  next[axis] += s;
+  LatticePoint corner = centre;
+  corner[axis] += s / 2;
+  const int h = s / 2;
+  const std::array<std::array<int, 2>, 4> ring = {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}};  // counter-clockwise about +axis
+  std::array<PointTet, 4> tets;
+  for (std::size_t e = 0; e < 4; ++e) {
+    LatticePoint first = corner;
+    LatticePoint second = corner;
+    first[u] += ring[e][0];
+    first[v] += ring[e][1];
+    second[u] += ring[(e + 1) % 4][0];
+    second[v] += ring[(e + 1) % 4][1];
+    tets[e] = {centre, next, first, second};
+  }
+  return tets;
+}
+
+bool holds_labelled_voxel(const LabelImage& image, const VoxelRaster& raster, const PointTet& tet) {
+  bool found = false;
+  raster.for_each_row(tet, [&](int j, int k, int i_begin, int i_end) {
+    if (!found) {
+      const MaterialId* row = image.voxels.data() + image.frame.offset(0, j, k);
+      found = std::any_of(row + i_begin, row + i_end, [](MaterialId m) { return m != kBackground; });
+    }
+  });
+  return found;
+}
+
+/// Which of the 12 tets of a cell (4 a face, 3 upper faces) hold a labelled voxel: bit 4 * axis + edge.
+std::uint16_t labelled_tets(const LabelImage& image, const VoxelRaster& raster, const Grid& grid, const Index3& cell) {
+  unsigned bits = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (cell[axis] + 1 < grid.cells[axis]) {
+      const auto tets = tets_across_face(grid, cell, axis);
+      for (unsigned e = 0; e < 4; ++e) {
+        bits |= holds_labelled_voxel(image, raster, tets[e]) ? 1U << (4 * static_cast<unsigned>(axis) + e) : 0U;
+      }
+    }
+  }
+  return static_cast<std::uint16_t>(bits);
+}
+
+void add_tets(Lattice& lattice, const Grid& grid, const Index3& cell, std::uint16_t bits) {
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const unsigned of_axis = (bits >> (4 * axis)) & 15U;
+    if (of_axis != 0) {
+      const auto tets = tets_across_face(grid, cell, axis);
+      for (unsigned e = 0; e < 4; ++e) {
+        if ((of_axis >> e & 1U) != 0) {
+          RedTet red{{}, 0};
+          for (std::size_t n = 0; n < 4; ++n) {
+            red.nodes[n] = lattice.vertex_at(tets[e][n]);
+          }
+          lattice.reds.push_back(red);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& options) {
+  const Grid grid = make_grid(image, options);
+  Lattice lattice;
+  lattice.frame = grid.frame;
+  const VoxelRaster raster(image.frame, grid.frame);
+  const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
+  std::vector<std::uint16_t> kept(cells.voxel_count());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::size_t c = 0; c < kept.size(); ++c) {
+    kept[c] = labelled_tets(image, raster, grid, cells.index_of(c));
+  }
+  for (std::size_t c = 0; c < kept.size(); ++c) {
+    if (kept[c] != 0) {
+      add_tets(lattice, grid, cells.index_of(c), kept[c]);
+    }
+  }
+  return lattice;
+}
+
+double default_lattice_spacing_mm(const ImageFrame& frame) {
+  return 10 * std::cbrt(frame.spacing_mm.x * frame.spacing_mm.y * frame.spacing_mm.z);
+}
+
+}  // namespace cbc3d

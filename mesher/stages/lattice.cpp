@@ -1,0 +1,63 @@
+#include "mesher/stages/lattice.hpp"
+
+namespace cbc3d {
+namespace {
+constexpr std::uint64_t kEmpty = ~0ULL;
+constexpr std::size_t kFirstCapacity = 1U << 12U;
+}  // namespace
+
+std::uint64_t VertexTable::key_of(const LatticePoint& point) {
+  return (static_cast<std::uint64_t>(point[2]) << 42U) | (static_cast<std::uint64_t>(point[1]) << 21U) |
+         static_cast<std::uint64_t>(point[0]);
+}
+
+std::size_t VertexTable::slot_of(std::uint64_t key) const {
+  std::uint64_t h = key * 0x9E3779B97F4A7C15ULL;
+  h ^= h >> 32U;
+  std::size_t slot = h & (slots_.size() - 1);
+  while (slots_[slot].key != kEmpty && slots_[slot].key != key) {
+    slot = (slot + 1) & (slots_.size() - 1);
+  }
+  return slot;
+}
+
+VertexId VertexTable::find(const LatticePoint& point) const {
+  if (slots_.empty()) {
+    return kNoVertex;
+  }
+  const Slot& slot = slots_[slot_of(key_of(point))];
+  return slot.key == kEmpty ? kNoVertex : slot.vertex;
+}
+
+VertexId VertexTable::find_or_insert(const LatticePoint& point, VertexId next) {
+  if (2 * (count_ + 1) > slots_.size()) {
+    grow();
+  }
+  const std::uint64_t key = key_of(point);
+  Slot& slot = slots_[slot_of(key)];
+  if (slot.key == kEmpty) {
+    slot = {key, next};
+    ++count_;
+  }
+  return slot.vertex;
+}
+
+void VertexTable::grow() {
+  std::vector<Slot> old(slots_.empty() ? kFirstCapacity : 2 * slots_.size(), Slot{kEmpty, 0});
+  old.swap(slots_);
+  for (const Slot& slot : old) {
+    if (slot.key != kEmpty) {
+      slots_[slot_of(slot.key)] = slot;
+    }
+  }
+}
+
+VertexId Lattice::vertex_at(const LatticePoint& point) {
+  const VertexId vertex = table.find_or_insert(point, static_cast<VertexId>(points.size()));
+  if (vertex == points.size()) {
+    points.push_back(point);
+  }
+  return vertex;
+}
+
+}  // namespace cbc3d

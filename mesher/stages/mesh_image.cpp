@@ -1,0 +1,125 @@
+#include "mesher/stages/mesh_image.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "mesher/core/mesh_io.hpp"
+#include "mesher/stages/bcc_lattice.hpp"
+#include "mesher/stages/red_green.hpp"
+
+namespace cbc3d {
+namespace {
+
+/// Times the stages, tells of them, and dumps their meshes when asked to.
+class StageLog {
+ public:
+  StageLog(const LabelImage& image, const MeshImageOptions& options, Progress& progress, MeshImageReport& report)
+      : image_(image), options_(options), progress_(progress), report_(report) {}
+
+  template <typename Stage>
+  auto run(const std::string& name, double fraction, const Stage& stage) {
+    progress_.step(name, fraction);
+    const Stopwatch watch;
+    struct Record {
+      ~Record() {
+        report.stage_seconds.emplace_back(name, watch.seconds());
+        report.seconds += watch.seconds();
+      }
+      MeshImageReport& report;
+      const std::string& name;
+      const Stopwatch& watch;
+    } record{report_, name, watch};
+    return stage();
+  }
+
+  void dump(const std::string& file, const MaterialMesh& mesh) const {
+    if (!options_.dump_stages.empty()) {
+      std::filesystem::create_directories(options_.dump_stages);
+      write_mesh(to_physical_mesh(mesh, image_), options_.dump_stages / (file + ".vtu"));
+    }
+  }
+
+  [[nodiscard]] bool dumping() const { return !options_.dump_stages.empty(); }
+
+ private:
+  const LabelImage& image_;
+  const MeshImageOptions& options_;
+  Progress& progress_;
+  MeshImageReport& report_;
+};
+
+std::vector<Vec3> local_points(const Lattice& lattice) {
+  std::vector<Vec3> points;
+  points.reserve(lattice.points.size());
+  for (const LatticePoint& p : lattice.points) {
+    points.push_back(lattice.frame.local(p));
+  }
+  return points;
+}
+
+/// A lattice as a mesh to look at: every tet, labelled 1.
+MaterialMesh as_material_mesh(const Lattice& lattice) {
+  const LatticeTets tets = extract_tets(lattice);
+  return {local_points(lattice), tets.nodes, std::vector<MaterialId>(tets.size(), 1)};
+}
+
+BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOptions& options, MeshImageReport& report) {
+  BccLatticeOptions lattice;
+  lattice.spacing_mm =
+      options.lattice_spacing_mm > 0 ? options.lattice_spacing_mm : default_lattice_spacing_mm(image.frame);
+  // Fidelity stops at the smallest voxel edge; a wire one voxel wide needs two more halvings to be held by several tets.
+  lattice.finest_spacing_mm = image.frame.spacing_mm.min_coeff() / (options.refine.max_distance_mm > 0 ? 4 : 1);
+  report.lattice_spacing_mm = lattice.spacing_mm;
+  return lattice;
+}
+
+void warn_of_lost_labels(const LabelImage& image, const MaterialMesh& mesh, MeshImageReport& report) {
+  std::vector<std::uint8_t> there(image.material_count(), 0);
+  for (const MaterialId m : mesh.materials) {
+    there[m] = 1;
+  }
+  const std::vector<std::size_t> voxels = image.voxels_per_material();
+  for (std::size_t m = 1; m < there.size(); ++m) {
+    if (there[m] == 0) {
+      report.warnings.push_back("label " + std::to_string(image.labels[m]) + " (" + std::to_string(voxels[m]) +
+                                " voxels) is not in the mesh; a smaller --lattice-spacing or --max-distance keeps it");
+    }
+  }
+}
+
+}  // namespace
+
+Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress, MeshImageReport& report) {
+  StageLog log(image, options, progress, report);
+
+  Lattice lattice = log.run("bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
+  if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
+
+  RefineOptions refine = options.refine;
+  refine.finest_spacing_mm = image.frame.spacing_mm.min_coeff();
+  report.refine = log.run("adaptive_refinement", 0.1, [&] {
+    return refine_lattice(lattice, image, refine, [&](int round, std::size_t tets) {
+      progress.step("adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
+                    std::min(0.5, 0.1 + 0.03 * round));
+    });
+  });
+  CandidateMesh candidate = std::move(report.refine.mesh);
+  report.finest_spacing_mm = lattice.frame.spacing_mm(lattice.frame.max_level);
+
+  MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {
+    return discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
+  });
+  log.dump("2_candidate_mesh", mesh);
+  report.warnings = report.refine.warnings;
+  warn_of_lost_labels(image, mesh, report);
+
+  report.deform = log.run("deformation", 0.55, [&] {
+    return deform_mesh(mesh, image, options.deform, [&](int i) {
+      progress.step("deformation, iteration " + std::to_string(i + 1), 0.55 + 0.4 * i / std::max(1, options.deform.iterations));
+    });
+  });
+  log.dump("3_deformed_mesh", mesh);
+  return to_physical_mesh(mesh, image);
+}
+
+}  // namespace cbc3d

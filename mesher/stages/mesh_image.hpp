@@ -1,0 +1,39 @@
+// CBC3D from label image to mesh: the paper's section "Method" in one function.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesher/core/label_image.hpp"
+#include "mesher/core/mesh.hpp"
+#include "mesher/core/progress.hpp"
+#include "mesher/stages/deform_mesh.hpp"
+#include "mesher/stages/refine_lattice.hpp"
+
+namespace cbc3d {
+
+struct MeshImageOptions {
+  double lattice_spacing_mm = 0;     ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
+  RefineOptions refine;
+  DeformOptions deform;
+  std::filesystem::path dump_stages; ///< folder for the mesh after each stage; empty: none is written
+};
+
+struct MeshImageReport {
+  double lattice_spacing_mm = 0;
+  double finest_spacing_mm = 0;
+  std::vector<std::pair<std::string, double>> stage_seconds;  ///< in order; reading and writing files not included
+  double seconds = 0;
+  RefineResult refine;                                        ///< without its mesh
+  DeformReport deform;
+  std::vector<std::string> warnings;
+};
+
+/// Meshes `image`; the mesh is in physical space and carries the image's label values. Throws InputError for options
+/// out of range. The same bytes come out at any thread count.
+Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress, MeshImageReport& report);
+
+}  // namespace cbc3d

@@ -1,0 +1,62 @@
+// Stage "Adaptive refinement" (paper, section "Adaptive Lattice Refinement"): rounds of red-green subdivision until every
+// material meets its fidelity, with the candidate mesh selected in every round, so that what is judged is what is kept.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesher/core/label_image.hpp"
+#include "mesher/stages/lattice.hpp"
+#include "mesher/stages/tet_adjacency.hpp"
+
+namespace cbc3d {
+
+struct RefineOptions {
+  double fidelity = 0.95;                      ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
+  std::map<Label, double> material_fidelity;   ///< F of single labels, in place of the global one
+  double max_distance_mm = 0;                  ///< > 0: refine also where a boundary voxel has no interface vertex so near
+  double finest_spacing_mm = 1;                ///< the fidelity criterion splits no tet below this lattice spacing, mm
+  int max_rounds = 40;                         ///< a bound that is never reached unless something is wrong
+};
+
+/// How well the sub-mesh of one material matches its voxels. S1: voxels in the sub-mesh, S2: voxels of the material.
+struct MaterialFidelity {
+  MaterialId material = 0;
+  Label label = 0;
+  double wanted = 0;              ///< F
+  std::size_t mesh_voxels = 0;    ///< |S1|
+  std::size_t image_voxels = 0;   ///< |S2|
+  std::size_t common_voxels = 0;  ///< |S1 n S2|
+
+  [[nodiscard]] double f1() const { return mesh_voxels == 0 ? 0 : ratio(mesh_voxels); }
+  [[nodiscard]] double f2() const { return image_voxels == 0 ? 1 : ratio(image_voxels); }
+  [[nodiscard]] bool met() const { return wanted <= f1() && wanted <= f2(); }
+
+ private:
+  [[nodiscard]] double ratio(std::size_t of) const {
+    return static_cast<double>(common_voxels) / static_cast<double>(of);
+  }
+};
+
+/// The conforming lattice with a material for every tet (background ones included) and who neighbours whom.
+struct CandidateMesh {
+  LatticeTets tets;
+  std::vector<MaterialId> materials;
+  std::vector<std::array<TetId, 4>> neighbours;
+};
+
+struct RefineResult {
+  CandidateMesh mesh;
+  std::vector<MaterialFidelity> fidelity;   ///< one a labelled material
+  std::size_t uncovered_voxels = 0;         ///< boundary voxels beyond max_distance_mm that could not be reached
+  int rounds = 0;
+  std::vector<std::string> warnings;        ///< which materials fall short, and why the rounds ended
+};
+
+/// Refines `lattice` in place. `on_round(round, tets)` is told of each round. Same result at any thread count.
+RefineResult refine_lattice(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
+                            const std::function<void(int round, std::size_t tets)>& on_round);
+
+}  // namespace cbc3d

@@ -1,0 +1,102 @@
+#include "mesher/stages/select_candidate.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cbc3d {
+namespace {
+
+class Selector {
+ public:
+  Selector(const std::vector<std::array<TetId, 4>>& neighbours, const std::vector<std::uint32_t>& rank,
+           std::vector<MaterialId>& materials)
+      : neighbours_(neighbours), rank_(rank), materials_(materials) {}
+
+  std::size_t run() {
+    std::vector<TetId> queue(materials_.size());
+    std::iota(queue.begin(), queue.end(), TetId{0});
+    std::vector<TetId> next;
+    std::size_t relabelled = 0;
+    while (!queue.empty()) {
+      next.clear();
+      for (const TetId t : queue) {
+        const MaterialId wanted = wanted_material(t);
+        if (wanted != materials_[t]) {
+          materials_[t] = wanted;
+          ++relabelled;
+          next.push_back(t);
+          for (const TetId n : neighbours_[t]) {
+            if (n != kNoTet) {
+              next.push_back(n);
+            }
+          }
+        }
+      }
+      std::sort(next.begin(), next.end());
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      queue.swap(next);
+    }
+    return relabelled;
+  }
+
+ private:
+  [[nodiscard]] MaterialId material_across(TetId neighbour) const {
+    return neighbour == kNoTet ? kBackground : materials_[neighbour];
+  }
+
+  /// The material with the most faces towards `t`; in a tie the higher rank.
+  [[nodiscard]] MaterialId wanted_material(TetId t) const {
+    const MaterialId own = materials_[t];
+    std::array<MaterialId, 4> around{};
+    for (std::size_t n = 0; n < 4; ++n) {
+      around[n] = material_across(neighbours_[t][n]);
+    }
+    const auto faces = [&around](MaterialId m) { return std::count(around.begin(), around.end(), m); };
+    if (own != kBackground && faces(kBackground) >= 2) {
+      return kBackground;
+    }
+    MaterialId best = own;
+    auto best_faces = faces(own);
+    for (const MaterialId candidate : around) {
+      const auto of_candidate = faces(candidate);
+      const bool tie_won = of_candidate == best_faces && of_candidate >= 2 && rank_[candidate] > rank_[best];
+      if (of_candidate > best_faces || tie_won) {
+        best = candidate;
+        best_faces = of_candidate;
+      }
+    }
+    return best;
+  }
+
+  const std::vector<std::array<TetId, 4>>& neighbours_;
+  const std::vector<std::uint32_t>& rank_;
+  std::vector<MaterialId>& materials_;
+};
+
+}  // namespace
+
+std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours, const std::vector<std::uint32_t>& rank,
+                             std::vector<MaterialId>& materials) {
+  return Selector(neighbours, rank, materials).run();
+}
+
+std::vector<std::uint32_t> rank_by_size(const LabelImage& image, const std::vector<std::size_t>& voxels_per_material) {
+  std::vector<std::size_t> first_voxel(voxels_per_material.size(), image.voxels.size());
+  for (std::size_t v = image.voxels.size(); v-- > 0;) {
+    first_voxel[image.voxels[v]] = v;
+  }
+  std::vector<std::uint32_t> order(voxels_per_material.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin() + 1, order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return voxels_per_material[a] != voxels_per_material[b] ? voxels_per_material[a] > voxels_per_material[b]
+                                                            : first_voxel[a] < first_voxel[b];
+  });
+  std::vector<std::uint32_t> rank(order.size());
+  rank[kBackground] = static_cast<std::uint32_t>(order.size());
+  for (std::size_t place = 1; place < order.size(); ++place) {
+    rank[order[place]] = static_cast<std::uint32_t>(place);
+  }
+  return rank;
+}
+
+}  // namespace cbc3d

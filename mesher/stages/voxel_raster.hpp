@@ -1,0 +1,89 @@
+// Exact enumeration of the voxels whose centres lie in a lattice tet.
+//
+// Voxel centres are rounded once to a fixed-point grid of 2^-16 lattice units; from there on all arithmetic is in
+// integers. A centre that falls on a face, edge or vertex is decided by the same infinitesimal shift (e, e^2, e^3) for
+// every tet, so each voxel belongs to exactly one tet of a conforming mesh.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/core/label_image.hpp"
+#include "mesher/stages/lattice.hpp"
+
+namespace cbc3d {
+
+class VoxelRaster {
+ public:
+  VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice);
+
+  /// Calls row(j, k, i_begin, i_end) for every run of voxels inside the positively oriented tet.
+  template <typename Row>
+  void for_each_row(const std::array<LatticePoint, 4>& tet, Row&& row) const;
+
+ private:
+  using Fixed = std::int64_t;
+  static constexpr int kFractionBits = 16;
+
+  /// Inward half-space n . x >= offset of a face (strictly where the infinitesimal shift says so).
+  struct HalfSpace {
+    std::array<Fixed, 3> normal;
+    Fixed offset;
+  };
+
+  /// An axis of the image: fixed-point positions of the voxel centres.
+  struct Axis {
+    std::vector<Fixed> centre;
+    /// First index whose centre is >= position (size when there is none).
+    [[nodiscard]] int first_at_or_after(Fixed position) const;
+    double inverse_step = 1;
+  };
+
+  static HalfSpace half_space(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c);
+  static std::array<HalfSpace, 4> half_spaces(const std::array<LatticePoint, 4>& tet);
+  /// Narrows [low, high) in fixed-point x; returns false when the row is empty.
+  static bool clip_row(const std::array<HalfSpace, 4>& sides, Fixed y, Fixed z, Fixed& low, Fixed& high);
+
+  std::array<Axis, 3> axes_;
+};
+
+template <typename Row>
+void VoxelRaster::for_each_row(const std::array<LatticePoint, 4>& tet, Row&& row) const {
+  std::array<Fixed, 3> low;
+  std::array<Fixed, 3> high;
+  for (std::size_t d = 0; d < 3; ++d) {
+    low[d] = high[d] = tet[0][d];
+    for (std::size_t n = 1; n < 4; ++n) {
+      low[d] = std::min<Fixed>(low[d], tet[n][d]);
+      high[d] = std::max<Fixed>(high[d], tet[n][d]);
+    }
+    low[d] <<= kFractionBits;
+    high[d] = (high[d] << kFractionBits) + 1;
+  }
+  const int k_end = axes_[2].first_at_or_after(high[2]);
+  const int j_begin = axes_[1].first_at_or_after(low[1]);
+  const int j_end = axes_[1].first_at_or_after(high[1]);
+  int k = axes_[2].first_at_or_after(low[2]);
+  if (k >= k_end || j_begin >= j_end || axes_[0].first_at_or_after(low[0]) >= axes_[0].first_at_or_after(high[0])) {
+    return;
+  }
+  const std::array<HalfSpace, 4> sides = half_spaces(tet);
+  for (; k < k_end; ++k) {
+    for (int j = j_begin; j < j_end; ++j) {
+      Fixed x_low = low[0];
+      Fixed x_high = high[0];
+      if (clip_row(sides, axes_[1].centre[static_cast<std::size_t>(j)], axes_[2].centre[static_cast<std::size_t>(k)], x_low,
+                   x_high)) {
+        const int i_begin = axes_[0].first_at_or_after(x_low);
+        const int i_end = axes_[0].first_at_or_after(x_high);
+        if (i_begin < i_end) {
+          row(j, k, i_begin, i_end);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace cbc3d

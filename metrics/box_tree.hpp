@@ -1,0 +1,157 @@
+// Nearest-primitive queries over a tree of bounding boxes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "mesher/core/vec3.hpp"
+
+namespace cbc3d::metrics {
+
+struct Box {
+  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+           std::numeric_limits<double>::infinity()};
+  Vec3 high = -low;
+
+  void add(const Vec3& p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  [[nodiscard]] double squared_distance(const Vec3& p) const {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double d = std::max({low[axis] - p[axis], p[axis] - high[axis], 0.0});
+      sum += d * d;
+    }
+    return sum;
+  }
+};
+
+/// `Primitive` has `void add_to(Box&) const` (its bounds) and `double squared_distance(const Vec3&) const`.
+/// Nodes lie in heap order; every level halves its range, so ranges need no storing.
+template <class Primitive>
+class BoxTree {
+ public:
+  explicit BoxTree(std::vector<Primitive> primitives) : primitives_(std::move(primitives)) {
+    std::size_t leaves = 1;
+    while (leaves * kLeafSize < primitives_.size()) {
+      leaves *= 2;
+    }
+    nodes_.resize(2 * leaves - 1);
+    first_leaf_ = leaves - 1;
+    build(0, 0, primitives_.size());
+  }
+
+  [[nodiscard]] bool empty() const { return primitives_.empty(); }
+
+  /// Squared distance to the nearest primitive (infinity without one), and which one it is. `hint`, an index
+  /// this returned for a nearby point, only makes it faster.
+  struct Nearest {
+    double squared;
+    std::size_t index;
+  };
+  [[nodiscard]] Nearest nearest(const Vec3& p, std::size_t hint = 0) const {
+    if (empty()) {
+      return {std::numeric_limits<double>::infinity(), 0};
+    }
+    Nearest best{primitives_[hint].squared_distance(p), hint};
+    std::array<Pending, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {nodes_[0].squared_distance(p), 0, 0, primitives_.size()};
+    while (depth > 0) {
+      const Pending at = stack[--depth];
+      if (at.squared >= best.squared) {
+        continue;
+      }
+      if (at.node >= first_leaf_) {
+        search_leaf(p, at, best);
+        continue;
+      }
+      const std::size_t middle = at.begin + (at.end - at.begin) / 2, child = 2 * at.node + 1;
+      Pending near{nodes_[child].squared_distance(p), child, at.begin, middle};
+      Pending far{nodes_[child + 1].squared_distance(p), child + 1, middle, at.end};
+      if (far.squared < near.squared) {
+        std::swap(near, far);
+      }
+      stack[depth++] = far;
+      stack[depth++] = near;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t kLeafSize = 4;
+  struct Pending {
+    double squared;
+    std::size_t node, begin, end;
+  };
+
+  void search_leaf(const Vec3& p, const Pending& leaf, Nearest& best) const {
+    for (std::size_t i = leaf.begin; i < leaf.end; ++i) {
+      const double squared = primitives_[i].squared_distance(p);
+      if (squared < best.squared) {
+        best = {squared, i};
+      }
+    }
+  }
+
+  static Vec3 middle_of(const Primitive& primitive) {
+    Box box;
+    primitive.add_to(box);
+    return box.low + box.high;
+  }
+
+  void build(std::size_t node, std::size_t begin, std::size_t end) {
+    Box& box = nodes_[node];
+    for (std::size_t i = begin; i < end; ++i) {
+      primitives_[i].add_to(box);
+    }
+    if (node >= first_leaf_) {
+      return;
+    }
+    const Vec3 extent = box.high - box.low;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const auto at = [this](std::size_t i) { return primitives_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(at(begin), at(middle), at(end), [axis](const Primitive& a, const Primitive& b) {
+      return middle_of(a)[axis] < middle_of(b)[axis];
+    });
+    build(2 * node + 1, begin, middle);
+    build(2 * node + 2, middle, end);
+  }
+
+  std::vector<Primitive> primitives_;
+  std::vector<Box> nodes_;
+  std::size_t first_leaf_ = 0;
+};
+
+/// A triangle; may be degenerate.
+struct Triangle {
+  Vec3 a, b, c;
+
+  void add_to(Box& box) const {
+    box.add(a);
+    box.add(b);
+    box.add(c);
+  }
+  [[nodiscard]] double squared_distance(const Vec3& p) const;
+};
+
+/// A box aligned with the axes, a face of a voxel for one.
+struct AlignedBox {
+  Box box;
+
+  void add_to(Box& to) const {
+    to.add(box.low);
+    to.add(box.high);
+  }
+  [[nodiscard]] double squared_distance(const Vec3& p) const { return box.squared_distance(p); }
+};
+
+}  // namespace cbc3d::metrics

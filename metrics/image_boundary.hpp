@@ -1,0 +1,30 @@
+// The boundary of every material of a label image: its voxels and the voxel faces it shows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/core/label_image.hpp"
+
+namespace cbc3d::metrics {
+
+/// A face of a voxel at which the material changes.
+struct VoxelFace {
+  std::array<std::int32_t, 3> voxel;  ///< i, j, k of the voxel within the material
+  std::uint8_t axis;                  ///< 0, 1, 2: the axis it is normal to
+  std::int8_t side;                   ///< -1 or +1: towards lower or higher indices
+};
+
+/// Centre of a voxel face in the image's local frame, mm.
+Vec3 centre_of(const VoxelFace& face, const ImageFrame& frame);
+
+struct MaterialBoundary {
+  std::vector<Vec3> voxel_centres;  ///< of the boundary voxels (is_boundary_voxel), local mm, in memory order
+  std::vector<VoxelFace> faces;     ///< every face towards another material or the outside
+};
+
+/// One entry per material, that of background left empty. The outside of the image counts as background.
+std::vector<MaterialBoundary> image_boundaries(const LabelImage& image);
+
+}  // namespace cbc3d::metrics

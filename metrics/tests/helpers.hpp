@@ -1,0 +1,72 @@
+// Images and meshes whose figures are known.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+#include "mesher/core/label_image.hpp"
+#include "mesher/core/mesh.hpp"
+#include "mesher/core/progress.hpp"
+#include "metrics/evaluate.hpp"
+
+namespace cbc3d::metrics::test {
+
+inline LabelImage empty_image(const Index3& size, const Vec3& spacing_mm, std::vector<Label> labels) {
+  LabelImage image;
+  image.frame.size = size;
+  image.frame.spacing_mm = spacing_mm;
+  image.labels = std::move(labels);
+  image.voxels.assign(image.frame.voxel_count(), kBackground);
+  return image;
+}
+
+inline void fill_box(LabelImage& image, const Index3& low, const Index3& high, MaterialId material) {
+  for (int k = low[2]; k <= high[2]; ++k)
+    for (int j = low[1]; j <= high[1]; ++j)
+      for (int i = low[0]; i <= high[0]; ++i) image.voxels[image.frame.offset(i, j, k)] = material;
+}
+
+/// Two boxes of labels 1 and 7, face to face, in an anisotropic image.
+inline LabelImage two_boxes() {
+  LabelImage image = empty_image({9, 8, 7}, {1.0, 0.5, 2.0}, {0, 1, 7});
+  fill_box(image, {2, 2, 2}, {4, 5, 4}, 1);
+  fill_box(image, {5, 2, 2}, {6, 5, 4}, 2);
+  return image;
+}
+
+/// The voxels of the labels themselves as six tets each (Kuhn's split, which conforms), in physical space.
+inline Mesh kuhn_mesh(const LabelImage& image) {
+  const ImageFrame& frame = image.frame;
+  const Index3 n{frame.size[0] + 1, frame.size[1] + 1, frame.size[2] + 1};
+  Mesh mesh;
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        mesh.points.push_back(
+            {(i - 0.5) * frame.spacing_mm.x, (j - 0.5) * frame.spacing_mm.y, (k - 0.5) * frame.spacing_mm.z});
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    if (image.voxels[v] == kBackground) continue;
+    std::array<int, 3> axes{0, 1, 2};
+    do {
+      Index3 at = frame.index_of(v);
+      std::array<VertexId, 4> tet{};
+      for (std::size_t step = 0; step < 4; ++step) {
+        tet[step] = static_cast<VertexId>((at[2] * n[1] + at[1]) * n[0] + at[0]);
+        if (step < 3) ++at[static_cast<std::size_t>(axes[step])];
+      }
+      const auto& p = mesh.points;
+      if (six_volumes(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]) < 0) std::swap(tet[2], tet[3]);
+      mesh.tets.add(tet, image.labels[image.voxels[v]]);
+    } while (std::next_permutation(axes.begin(), axes.end()));
+  }
+  map_to_physical(mesh, frame);
+  return mesh;
+}
+
+inline nlohmann::json judge(const Mesh& mesh, const LabelImage& image) {
+  Progress quiet(true);
+  return evaluate(mesh, image, {}, quiet);
+}
+
+}  // namespace cbc3d::metrics::test
