@@ -62,7 +62,8 @@ class SignalGuard {
   std::array<struct sigaction, kEndingSignals.size()> former_{};
 };
 
-/// While alive, the ending signals wait: between the fork and the note of the child's group they would miss it.
+/// While alive, the ending signals wait: between the fork and the note of the child's group they would miss
+/// it.
 class SignalBlock {
  public:
   SignalBlock() {
@@ -98,8 +99,8 @@ Pipe open_pipe() {
 /// Environment of the child: ours, with the thread counts of the usual pools set.
 std::vector<std::string> child_environment(int threads) {
   static constexpr std::array kThreadVariables{"OMP_NUM_THREADS", "OMP_THREAD_LIMIT",
-                                               "ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS",
-                                               "VTK_SMP_MAX_THREADS", "OPENBLAS_NUM_THREADS"};
+                                               "ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS", "VTK_SMP_MAX_THREADS",
+                                               "OPENBLAS_NUM_THREADS"};
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string text = *entry;
@@ -127,9 +128,10 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// In the child, after the fork: becomes the command. Only async-signal-safe calls, as this process may have threads.
-[[noreturn]] void become(const std::vector<char*>& argv, const std::vector<char*>& environment, const Pipe& errors,
-                         const Pipe& start, pid_t parent, const sigset_t& signals) {
+/// In the child, after the fork: becomes the command. Only async-signal-safe calls, as this process may have
+/// threads.
+[[noreturn]] void become(const std::vector<char*>& argv, const std::vector<char*>& environment,
+                         const Pipe& errors, const Pipe& start, pid_t parent, const sigset_t& signals) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) {
@@ -308,8 +310,8 @@ std::string last_line(const std::string& text) {
 
 std::string signal_name(int signal) {
   const char* abbreviation = ::sigabbrev_np(signal);
-  const std::string name = abbreviation != nullptr ? std::string("SIG") + abbreviation
-                                                    : "signal " + std::to_string(signal);
+  const std::string name =
+      abbreviation != nullptr ? std::string("SIG") + abbreviation : "signal " + std::to_string(signal);
   const char* description = ::sigdescr_np(signal);
   return description != nullptr ? name + " (" + description + ")" : name;
 }

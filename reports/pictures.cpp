@@ -29,8 +29,8 @@ ChildResult draw(const fs::path& out_dir, const Json& result, const fs::path& bi
   const std::string image = figure(result, {"provenance", "image_file"}).get<std::string>();
   return run_child({{"xvfb-run", "-a", "--server-args=-screen 0 1280x1024x24", bin_dir / "cbc3d-picture",
                      out_dir / result["mesh_file"].get<std::string>(), "--image", image, "--cut",
-                     figures / (stem + "-cut.png"), "--surface", figures / (stem + "-surface.png"), "--caption",
-                     caption_of(result), "--quiet"},
+                     figures / (stem + "-cut.png"), "--surface", figures / (stem + "-surface.png"),
+                     "--caption", caption_of(result), "--quiet"},
                     0,
                     kTimeoutS,
                     kMemoryLimitBytes});
@@ -44,10 +44,14 @@ bool can_be_drawn(const Json& result) {
 std::string failure_text(const ChildResult& child) {
   const std::string line = last_line(child.stderr_tail);
   switch (child.end) {
-    case ChildEnd::timeout: return "not done after " + format_number(kTimeoutS, 0) + " s";
-    case ChildEnd::out_of_memory: return "too large";
-    case ChildEnd::signalled: return signal_name(child.signal);
-    default: return line.empty() ? "exit code " + std::to_string(child.exit_code) : line;
+    case ChildEnd::timeout:
+      return "not done after " + format_number(kTimeoutS, 0) + " s";
+    case ChildEnd::out_of_memory:
+      return "too large";
+    case ChildEnd::signalled:
+      return signal_name(child.signal);
+    default:
+      return line.empty() ? "exit code " + std::to_string(child.exit_code) : line;
   }
 }
 

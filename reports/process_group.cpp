@@ -12,8 +12,8 @@ namespace cbc3d::reports {
 namespace {
 namespace fs = std::filesystem;
 
-/// The group of a process, from /proc/PID/stat: the third field after the command name, which is in parentheses and may
-/// itself hold blanks and parentheses. -1 when the process is gone.
+/// The group of a process, from /proc/PID/stat: the third field after the command name, which is in
+/// parentheses and may itself hold blanks and parentheses. -1 when the process is gone.
 pid_t group_of(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string line;

@@ -12,8 +12,8 @@ namespace cbc3d::reports {
 class GroupMemory {
  public:
   explicit GroupMemory(pid_t group) : group_(group) {}
-  /// Resident memory of the group now, bytes. Looks for new members only at every fifth call, since going through all
-  /// of /proc takes milliseconds.
+  /// Resident memory of the group now, bytes. Looks for new members only at every fifth call, since going
+  /// through all of /proc takes milliseconds.
   std::int64_t sample();
 
  private:

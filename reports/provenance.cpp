@@ -43,8 +43,8 @@ Json provenance() {
   result["libraries"] = {{"itk", kItkVersion}, {"vtk", kVtkVersion}, {"cgal", kCgalVersion}};
   result["cpu"] = cpu_model();
   result["cores"] = std::thread::hardware_concurrency();
-  result["memory_bytes"] =
-      static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::int64_t>(::sysconf(_SC_PAGESIZE));
+  result["memory_bytes"] = static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                           static_cast<std::int64_t>(::sysconf(_SC_PAGESIZE));
   result["utc"] = utc_now();
   return result;
 }

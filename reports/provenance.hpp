@@ -5,7 +5,8 @@
 
 namespace cbc3d::reports {
 
-/// Version and git commit of this build, compiler, library versions, CPU, cores, memory and the time now (UTC).
+/// Version and git commit of this build, compiler, library versions, CPU, cores, memory and the time now
+/// (UTC).
 Json provenance();
 
 }  // namespace cbc3d::reports

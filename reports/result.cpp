@@ -39,9 +39,8 @@ Json empty_result() {
   result["counts"] = nulls({"vertices", "tets", "pyramids", "wedges", "hexes"});
   result["quality"] = nulls(
       {"min_dihedral_deg", "max_dihedral_deg", "dihedral_histogram_5deg", "min_scaled_jacobian", "inverted"});
-  result["fidelity"] =
-      nulls({"hausdorff_mm", "image_to_mesh_mm", "mesh_to_image_mm", "surface_hausdorff_mm",
-             "mean_distance_mm", "hd95_mm", "dice_min", "missing_labels", "per_label"});
+  result["fidelity"] = nulls({"hausdorff_mm", "image_to_mesh_mm", "mesh_to_image_mm", "surface_hausdorff_mm",
+                              "mean_distance_mm", "hd95_mm", "dice_min", "missing_labels", "per_label"});
   result["topology"] =
       nulls({"conforming", "non_manifold_edges", "non_manifold_vertices", "components", "per_label"});
   result["time_s"] = nulls({"mesh", "cpu", "stages"});
@@ -72,8 +71,8 @@ void append_result(const std::filesystem::path& file, const Json& result) {
   const bool synced = ::fsync(descriptor) == 0;
   ::close(descriptor);
   if (written != static_cast<ssize_t>(line.size()) || !synced) {
-    throw JobError("cannot write '" + file.string() + "': " +
-                   (written < 0 ? std::strerror(write_error) : "the disk is full or failing"));
+    throw JobError("cannot write '" + file.string() +
+                   "': " + (written < 0 ? std::strerror(write_error) : "the disk is full or failing"));
   }
 }
 

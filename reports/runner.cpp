@@ -64,7 +64,8 @@ void set_failure(Json& result, const ChildResult& child, const nlohmann::json& r
     case ChildEnd::out_of_memory:
       return set_status(result, "out_of_memory",
                         "used more than " +
-                            number_text(static_cast<double>(options.memory_limit_bytes) / double(1 << 30)) + " GiB");
+                            number_text(static_cast<double>(options.memory_limit_bytes) / double(1 << 30)) +
+                            " GiB");
     case ChildEnd::signalled:
       return set_status(result, "crashed",
                         signal_name(child.signal) + (line.empty() ? "" : "; last line: " + line));
@@ -119,10 +120,9 @@ class JobRun {
   }
 
   bool mesh(const fs::path& image, Json& result) const {
-    const ChildResult child =
-        start(job_.mesher->command(bench_.bin_dir,
-                                   {image, files_.mesh, files_.report, job_.threads, job_.parameters}),
-              job_.threads);
+    const ChildResult child = start(job_.mesher->command(bench_.bin_dir, {image, files_.mesh, files_.report,
+                                                                          job_.threads, job_.parameters}),
+                                    job_.threads);
     const nlohmann::json report = read_json(files_.report);
     set_costs(result, child, report);
     if (child.end == ChildEnd::exited && child.exit_code == 0) {
@@ -198,7 +198,8 @@ Json run_job(const Bench& bench, const RunOptions& options, const Job& job) {
 std::string progress_line(const Json& result) {
   std::string line = result_id(result) + ": " + result["status"].get<std::string>();
   if (result["time_s"]["mesh"].is_number()) {
-    line += ", meshed in " + number_text(std::round(100 * result["time_s"]["mesh"].get<double>()) / 100) + " s";
+    line +=
+        ", meshed in " + number_text(std::round(100 * result["time_s"]["mesh"].get<double>()) / 100) + " s";
   }
   const std::string reason = result["reason"];
   return reason.empty() ? line : line + " (" + reason + ")";
@@ -210,7 +211,8 @@ std::vector<int> thread_counts(const baselines::Adapter& mesher, const std::vect
   }
   std::vector<int> counts;
   for (const int count : wanted) {
-    const int effective = count > 0 ? count : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const int effective =
+        count > 0 ? count : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     if (std::find(counts.begin(), counts.end(), effective) == counts.end()) {
       counts.push_back(effective);
     }

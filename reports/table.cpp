@@ -70,7 +70,8 @@ Json to_json(const Table& table) {
     }
     rows.push_back({{"case", row.case_name}, {"figure", row.figure}, {"cells", std::move(cells)}});
   }
-  return {{"name", table.name}, {"title", table.title}, {"columns", table.columns}, {"rows", std::move(rows)}};
+  return {
+      {"name", table.name}, {"title", table.title}, {"columns", table.columns}, {"rows", std::move(rows)}};
 }
 
 }  // namespace cbc3d::reports

@@ -36,7 +36,8 @@ struct Table {
 /// A number with that many decimals and commas between the thousands.
 std::string format_number(double value, int decimals);
 
-/// "1,234 [1,200-1,300] (paper: 1,100)"; "-" without a value. The range is there when the runs differ in what is shown.
+/// "1,234 [1,200-1,300] (paper: 1,100)"; "-" without a value. The range is there when the runs differ in what
+/// is shown.
 std::string cell_text(const Cell& cell, int decimals);
 
 /// The reasons of a table, each once, as "CASE, MESHER: REASON", numbered from 1 by their place.
@@ -55,7 +56,8 @@ class Footnotes {
 
 /// A Markdown table, padded so that it also reads well as plain text, with the reasons beneath.
 std::string to_markdown(const Table& table);
-/// One line a row: raw numbers, and for each mesher a column with the paper's figures or reasons where there are any.
+/// One line a row: raw numbers, and for each mesher a column with the paper's figures or reasons where there
+/// are any.
 std::string to_csv(const Table& table);
 /// A tabular environment in a table, with the reasons beneath.
 std::string to_latex(const Table& table);

@@ -42,14 +42,29 @@ std::string latex_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '\\': escaped += "\\textbackslash{}"; break;
-      case '~': escaped += "\\textasciitilde{}"; break;
-      case '^': escaped += "\\textasciicircum{}"; break;
-      case '\n': escaped += ' '; break;
-      case '&': case '%': case '$': case '#': case '_': case '{': case '}':
+      case '\\':
+        escaped += "\\textbackslash{}";
+        break;
+      case '~':
+        escaped += "\\textasciitilde{}";
+        break;
+      case '^':
+        escaped += "\\textasciicircum{}";
+        break;
+      case '\n':
+        escaped += ' ';
+        break;
+      case '&':
+      case '%':
+      case '$':
+      case '#':
+      case '_':
+      case '{':
+      case '}':
         escaped += '\\';
         [[fallthrough]];
-      default: escaped += c;
+      default:
+        escaped += c;
     }
   }
   return escaped;
@@ -80,16 +95,19 @@ std::vector<CsvColumn> csv_columns(const Table& table) {
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
     const std::string& name = table.columns[column];
     const auto any = [&](auto has) {
-      return std::any_of(table.rows.begin(), table.rows.end(), [&](const Row& row) { return has(row.cells[column]); });
+      return std::any_of(table.rows.begin(), table.rows.end(),
+                         [&](const Row& row) { return has(row.cells[column]); });
     };
     columns.push_back({name, column, [](const Cell& c) { return c.value ? csv_number(*c.value) : "-"; }});
     if (any([](const Cell& c) { return c.runs > 1; })) {
-      columns.push_back({name + " min", column, [](const Cell& c) { return c.value ? csv_number(c.lowest) : "-"; }});
-      columns.push_back({name + " max", column, [](const Cell& c) { return c.value ? csv_number(c.highest) : "-"; }});
+      columns.push_back(
+          {name + " min", column, [](const Cell& c) { return c.value ? csv_number(c.lowest) : "-"; }});
+      columns.push_back(
+          {name + " max", column, [](const Cell& c) { return c.value ? csv_number(c.highest) : "-"; }});
     }
     if (any([](const Cell& c) { return c.paper.has_value(); })) {
-      columns.push_back(
-          {name + " (paper)", column, [](const Cell& c) { return c.paper ? csv_number(*c.paper) : std::string(); }});
+      columns.push_back({name + " (paper)", column,
+                         [](const Cell& c) { return c.paper ? csv_number(*c.paper) : std::string(); }});
     }
     if (any([](const Cell& c) { return !c.reason.empty(); })) {
       columns.push_back({name + " reason", column, [](const Cell& c) { return c.reason; }});
@@ -124,16 +142,19 @@ std::string to_markdown(const Table& table) {
     text += "\n" + (line == 0 ? rule + "\n" : "");
   }
   for (std::size_t note = 0; note < footnotes.notes().size(); ++note) {
-    text += (note == 0 ? "\n[" : "[") + std::to_string(note + 1) + "] " + markdown_text(footnotes.notes()[note]) + "  \n";
+    text += (note == 0 ? "\n[" : "[") + std::to_string(note + 1) + "] " +
+            markdown_text(footnotes.notes()[note]) + "  \n";
   }
   return text;
 }
 
 std::string to_latex(const Table& table) {
   const Footnotes footnotes(table);
-  const auto rows = texts_of(table, footnotes, [](std::size_t number) { return "@" + std::to_string(number) + "@"; });
-  std::string text = "\\begin{table}[htb]\n\\caption{" + latex_text(table.title) + "}\n\\centering\n\\begin{tabular}{ll" +
-                     std::string(table.columns.size(), 'r') + "}\n\\hline\n";
+  const auto rows =
+      texts_of(table, footnotes, [](std::size_t number) { return "@" + std::to_string(number) + "@"; });
+  std::string text = "\\begin{table}[htb]\n\\caption{" + latex_text(table.title) +
+                     "}\n\\centering\n\\begin{tabular}{ll" + std::string(table.columns.size(), 'r') +
+                     "}\n\\hline\n";
   for (std::size_t line = 0; line < rows.size(); ++line) {
     for (std::size_t column = 0; column < rows[line].size(); ++column) {
       text += (column == 0 ? "" : " & ") + latex_text(rows[line][column]);

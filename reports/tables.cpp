@@ -100,7 +100,8 @@ std::string text_of(const Json& result, const char* key) {
   return result.value(key, "");
 }
 
-/// Meshers by name, in the order of their first line; with "(N threads)" for those that ran with several counts.
+/// Meshers by name, in the order of their first line; with "(N threads)" for those that ran with several
+/// counts.
 class Columns {
  public:
   explicit Columns(const std::vector<Json>& results) {
@@ -171,7 +172,8 @@ Cell cell_of(const std::vector<const Json*>& runs, const Measure& measure) {
   return cell;
 }
 
-/// The paper's figure for a mesher. Variants share their method's: cbc3d-paper has cbc3d's, but not a mixed mesh.
+/// The paper's figure for a mesher. Variants share their method's: cbc3d-paper has cbc3d's, but not a mixed
+/// mesh.
 std::optional<double> paper_figure(const std::vector<cases::Case>& cases, const std::string& case_name,
                                    const std::string& mesher, const std::string& key) {
   const auto found =
@@ -179,7 +181,8 @@ std::optional<double> paper_figure(const std::vector<cases::Case>& cases, const 
   if (found == cases.end() || key.empty() || !found->paper.is_object()) {
     return std::nullopt;
   }
-  for (const std::string& name : {mesher, mesher == "cbc3d-mixed" ? mesher : mesher.substr(0, mesher.find('-'))}) {
+  for (const std::string& name :
+       {mesher, mesher == "cbc3d-mixed" ? mesher : mesher.substr(0, mesher.find('-'))}) {
     const auto figures = found->paper.find(name);
     if (figures != found->paper.end() && figures->is_object() && figures->contains(key) &&
         (*figures)[key].is_number()) {
@@ -199,7 +202,8 @@ std::vector<std::string> case_names(const std::vector<Json>& results) {
   return names;
 }
 
-Table build_table(const TablePlan& plan, const std::vector<Json>& results, const std::vector<cases::Case>& cases) {
+Table build_table(const TablePlan& plan, const std::vector<Json>& results,
+                  const std::vector<cases::Case>& cases) {
   const Columns columns(results);
   Table table{plan.name, plan.title, columns.names(), {}};
   for (const std::string& case_name : case_names(results)) {

@@ -1,5 +1,5 @@
-// cbc3d-picture: PNG pictures of a mesh. VTK's rendering needs an X server (a virtual one will do) and ends the process
-// without one, so it lives in a program of its own.
+// cbc3d-picture: PNG pictures of a mesh. VTK's rendering needs an X server (a virtual one will do) and ends
+// the process without one, so it lives in a program of its own.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -39,10 +39,12 @@ int draw(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Draws a mesh: its cut section and its surface. Needs an X server: xvfb-run -a cbc3d-picture ..."};
+  CLI::App app{
+      "Draws a mesh: its cut section and its surface. Needs an X server: xvfb-run -a cbc3d-picture ..."};
   Options options;
   app.add_option("MESH", options.mesh, "mesh file: .vtu, .vtk or .msh")->required();
-  app.add_option("--image", options.image, "label image that the mesh was made from: it gives plane, view and colours")
+  app.add_option("--image", options.image,
+                 "label image that the mesh was made from: it gives plane, view and colours")
       ->required();
   app.add_option("--cut", options.cut, "PNG file of the cut section");
   app.add_option("--surface", options.surface, "PNG file of the surface");

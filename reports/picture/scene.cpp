@@ -8,12 +8,10 @@
 #include <vtkExtractGeometry.h>
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
-#include <vtkLegendBoxActor.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPlane.h>
-#include <vtkPlaneSource.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -142,27 +140,27 @@ void add_caption(vtkRenderer* renderer, const PictureOptions& options) {
   renderer->AddActor2D(text);
 }
 
-/// Names the labels by their colours, unless they are too many to be told apart.
-void add_legend(vtkRenderer* renderer, const LabelImage& image) {
+/// Names the labels, each on its colour, unless they are too many to be told apart.
+void add_legend(vtkRenderer* renderer, const LabelImage& image, const PictureOptions& options) {
   const std::size_t count = image.labels.size() - 1;
-  if (count == 0 || count > kLegendLabels) {
+  if (count > kLegendLabels) {
     return;
   }
-  vtkNew<vtkPlaneSource> square;
-  square->Update();
-  vtkNew<vtkLegendBoxActor> legend;
-  legend->SetNumberOfEntries(static_cast<int>(count));
+  constexpr double kLineHeight = 0.036;
   for (std::size_t m = 1; m <= count; ++m) {
-    Colour colour = material_colour(m);
-    legend->SetEntry(static_cast<int>(m) - 1, square->GetOutput(),
-                     ("label " + std::to_string(image.labels[m])).c_str(), colour.data());
+    const Colour colour = material_colour(m);
+    vtkNew<vtkTextActor> text;
+    text->SetInput((" label " + std::to_string(image.labels[m]) + " ").c_str());
+    vtkTextProperty* style = text->GetTextProperty();
+    style->SetFontSize(options.size_px / 48);
+    style->SetColor(0.1, 0.1, 0.1);
+    style->SetBackgroundColor(colour[0], colour[1], colour[2]);
+    style->SetBackgroundOpacity(1);
+    style->SetJustificationToRight();
+    text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    text->SetPosition(0.98, 0.02 + kLineHeight * static_cast<double>(count - m));
+    renderer->AddActor2D(text);
   }
-  legend->GetEntryTextProperty()->SetColor(0.1, 0.1, 0.1);
-  legend->BorderOff();
-  const double height = 0.03 * static_cast<double>(count);
-  legend->GetPositionCoordinate()->SetValue(0.84, 0.02);
-  legend->GetPosition2Coordinate()->SetValue(0.15, height);
-  renderer->AddActor2D(legend);
 }
 
 void write_png(vtkRenderer* renderer, const PictureOptions& options, const std::filesystem::path& png) {
@@ -186,15 +184,29 @@ void write_png(vtkRenderer* renderer, const PictureOptions& options, const std::
   file.commit();
 }
 
-/// Looks from `offset_mm` beside the centre towards it.
-void set_camera(vtkRenderer* renderer, const View& view, const Vec3& offset_mm, const Vec3& up) {
+/// Looks at the middle of the labelled voxels, which fill the picture.
+void set_camera(vtkRenderer* renderer, const View& view, const Vec3& towards_eye, const Vec3& up) {
+  const Vec3 right = up.cross(towards_eye).normalized();
+  const Vec3 upright = towards_eye.cross(right);
+  double half_size_mm = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 offset;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double side = (corner >> axis & 1) != 0 ? 0.5 : -0.5;
+      offset += side * view.extent_mm[axis] * view.axes.column(axis);
+    }
+    half_size_mm = std::max({half_size_mm, std::abs(offset.dot(right)), std::abs(offset.dot(upright))});
+  }
+  const double distance_mm = 2 * view.extent_mm.norm();
+  const Vec3 eye = view.centre_mm + distance_mm * towards_eye;
   vtkCamera* camera = renderer->GetActiveCamera();
-  const Vec3 eye = view.centre_mm + offset_mm;
   camera->SetFocalPoint(view.centre_mm.x, view.centre_mm.y, view.centre_mm.z);
   camera->SetPosition(eye.x, eye.y, eye.z);
   camera->SetViewUp(up.x, up.y, up.z);
   camera->ParallelProjectionOn();
-  camera->SetClippingRange(0.01 * view.radius_mm, 10 * view.radius_mm);
+  constexpr double kMargin = 1.12;  // for the caption above and the mesh's own overhang
+  camera->SetParallelScale(kMargin * half_size_mm);
+  camera->SetClippingRange(0.5 * distance_mm, 2 * distance_mm);
 }
 
 vtkNew<vtkRenderer> renderer_of(vtkActor* actor, const LabelImage& image, const PictureOptions& options) {
@@ -202,7 +214,7 @@ vtkNew<vtkRenderer> renderer_of(vtkActor* actor, const LabelImage& image, const 
   renderer->SetBackground(1, 1, 1);
   renderer->AddActor(actor);
   add_caption(renderer, options);
-  add_legend(renderer, image);
+  add_legend(renderer, image, options);
   return renderer;
 }
 
@@ -223,11 +235,9 @@ View view_of(const LabelImage& image) {
   }
   const Vec3 from = image.frame.local_centre(lowest[0], lowest[1], lowest[2]);
   const Vec3 to = image.frame.local_centre(highest[0], highest[1], highest[2]);
-  const Vec3 extent = to - from + image.frame.spacing_mm;
   View view;
   view.centre_mm = image.frame.to_physical(0.5 * (from + to));
-  view.radius_mm = 0.5 * extent.norm();
-  view.half_height_mm = 0.5 * std::max(extent.x, extent.y);
+  view.extent_mm = to - from + image.frame.spacing_mm;
   view.axes = image.frame.direction;
   return view;
 }
@@ -251,9 +261,7 @@ void draw_cut_section(const Mesh& mesh, const LabelImage& image, const PictureOp
   actor->GetProperty()->SetAmbient(0.35);
   actor->GetProperty()->SetDiffuse(0.65);
   const vtkNew<vtkRenderer> renderer = renderer_of(actor, image, options);
-  set_camera(renderer, view, 3 * view.radius_mm * towards_eye, -view.axes.column(1));
-  constexpr double kMargin = 1.14;  // for the caption above and the mesh's own overhang
-  renderer->GetActiveCamera()->SetParallelScale(kMargin * view.half_height_mm);
+  set_camera(renderer, view, towards_eye, -view.axes.column(1));
   write_png(renderer, options, png);
 }
 
@@ -266,8 +274,7 @@ void draw_surface(const Mesh& mesh, const LabelImage& image, const PictureOption
   const vtkNew<vtkRenderer> renderer = renderer_of(actor, image, options);
   const Vec3 oblique =
       (-0.45 * view.axes.column(0) - 0.8 * view.axes.column(1) + 0.4 * view.axes.column(2)).normalized();
-  set_camera(renderer, view, 3 * view.radius_mm * oblique, view.axes.column(2));
-  renderer->GetActiveCamera()->SetParallelScale(view.radius_mm);
+  set_camera(renderer, view, oblique, view.axes.column(2));
   write_png(renderer, options, png);
 }
 

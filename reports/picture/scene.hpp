@@ -17,16 +17,15 @@ struct PictureOptions {
 /// Where to look from. It depends on the image alone, so that all meshes of an image are seen alike.
 struct View {
   Vec3 centre_mm;               ///< middle of the labelled voxels, physical
-  double radius_mm = 1;         ///< of a sphere about the centre that holds the labelled voxels
-  double half_height_mm = 1;    ///< half the height of the picture of the cut section
+  Vec3 extent_mm{1, 1, 1};      ///< of the labelled voxels along the image axes
   Mat3 axes{Mat3::identity()};  ///< columns: the image axes in physical space
 };
 
 View view_of(const LabelImage& image);
 
-/// Draws the half of the mesh behind the plane through the middle of the labelled voxels, normal to the image's third
-/// axis, as whole elements with their edges, coloured by label; seen as in radiology, from the feet. Throws JobError
-/// when the picture cannot be written.
+/// Draws the half of the mesh behind the plane through the middle of the labelled voxels, normal to the
+/// image's third axis, as whole elements with their edges, coloured by label; seen as in radiology, from the
+/// feet. Throws JobError when the picture cannot be written.
 void draw_cut_section(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
                       const std::filesystem::path& png);
 
