@@ -16,7 +16,7 @@ struct CgalOptions {
   bool perturb = true;                 ///< move vertices that slivers hang on
   double perturb_sliver_bound_deg = 12;///< dihedral angle at which perturbation is content
   bool exude = true;                   ///< weight vertices so that slivers leave the triangulation
-  double exude_sliver_bound_deg = 0;   ///< dihedral angle at which exudation is content; 0: as large as it gets
+  double exude_sliver_bound_deg = 12;  ///< dihedral angle at which exudation is content; 0: as large as it gets
   double time_limit_s = 300;           ///< for perturbation and for exudation each; 0: none
   unsigned seed = 0;                   ///< of the directions in which first surface points are looked for
   int threads = 1;                     ///< of the parallel build; the sequential one ignores it
