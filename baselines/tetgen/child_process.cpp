@@ -51,7 +51,9 @@ void write_all(int fd, const void* data, std::size_t bytes) {
 [[noreturn]] void be_the_child(const std::function<void(const Send&)>& work, int fd) {
   drop_standard_streams();
   std::set_terminate(end_by_exception);
-  std::thread([&] { work([fd](const void* data, std::size_t bytes) { write_all(fd, data, bytes); }); }).join();
+  std::thread([&] {
+    work([fd](const void* data, std::size_t bytes) { write_all(fd, data, bytes); });
+  }).join();
   ::_exit(0);
 }
 

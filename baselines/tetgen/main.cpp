@@ -13,6 +13,7 @@ TetgenOptions options_of(const ParameterValues& values) {
   options.radius_edge_ratio = values.number("radius-edge-ratio", 1, 100);
   options.max_volume_mm3 = values.number("max-volume", 1e-6, kLargest);
   options.smoothing_steps = values.count("smoothing-steps", 0, 10000);
+  options.reach = values.number("reach", 0, 0.49);
   options.repair_rounds = values.count("repair-rounds", 0, 1000);
   return options;
 }

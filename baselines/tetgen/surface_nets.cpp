@@ -13,8 +13,8 @@ namespace {
 constexpr double kShrink = 0.5;
 constexpr double kGrow = -0.526;
 
-// Cell (i,j,k) of the dual grid lies between voxels (i-1,j-1,k-1) and (i,j,k), so that the grid has one cell more
-// than the image along each axis and covers its border.
+// Cell (i,j,k) of the dual grid lies between voxels (i-1,j-1,k-1) and (i,j,k), so that the grid has one cell
+// more than the image along each axis and covers its border.
 struct DualGrid {
   const LabelImage& image;
   Index3 size;
@@ -27,9 +27,7 @@ struct DualGrid {
                static_cast<std::size_t>(size[0]) +
            static_cast<std::size_t>(i);
   }
-  [[nodiscard]] std::size_t count() const {
-    return offset(size[0] - 1, size[1] - 1, size[2] - 1) + 1;
-  }
+  [[nodiscard]] std::size_t count() const { return offset(size[0] - 1, size[1] - 1, size[2] - 1) + 1; }
   // The materials at the cell's corners, x fastest.
   [[nodiscard]] std::array<MaterialId, 8> corners(int i, int j, int k) const {
     std::array<MaterialId, 8> materials{};
@@ -153,8 +151,8 @@ void smooth(SurfaceNet& net, int steps) {
 
 using Quad = std::array<int, 4>;
 
-// The quads of the voxel faces across `axis` at the low side of voxel (i,j,k), if two labels meet there. The quad
-// turns counter-clockwise about the axis, so that its normal points from the lower voxel to (i,j,k).
+// The quads of the voxel faces across `axis` at the low side of voxel (i,j,k), if two labels meet there. The
+// quad turns counter-clockwise about the axis, so that its normal points from the lower voxel to (i,j,k).
 void add_quad(const DualGrid& grid, const std::vector<int>& ids, const Index3& voxel, int axis,
               std::vector<Quad>& quads, std::vector<NetSides>& sides) {
   Index3 lower = voxel;

@@ -60,7 +60,8 @@ class ByteReader {
 
  private:
   void take(void* to, std::size_t bytes) {
-    if (bytes > bytes_.size() - next_) throw JobError("TetGen's process ended before its result was complete");
+    if (bytes > bytes_.size() - next_)
+      throw JobError("TetGen's process ended before its result was complete");
     if (bytes > 0) std::memcpy(to, bytes_.data() + next_, bytes);
     next_ += bytes;
   }
@@ -83,13 +84,14 @@ std::string reason_of(int tetgen_code) {
   }
 }
 
-// TetGen's code 1 and a kill by the system both mean that memory ran out.
+// TetGen's code 1 says that memory ran out.
 void require_success(const ChildResult& child, const std::string& switches) {
   if (child.signal != 0)
-    throw JobError("TetGen died of signal " + std::to_string(child.signal) + " (" + ::strsignal(child.signal) +
-                   ") with the switches " + switches);
+    throw JobError("TetGen died of signal " + std::to_string(child.signal) + " (" +
+                   ::strsignal(child.signal) + ") with the switches " + switches);
   if (child.exit_code == 0) return;
-  if (child.exit_code == kChildOutOfMemory || child.exit_code == kChildThrewNumber + 1) throw std::bad_alloc();
+  if (child.exit_code == kChildOutOfMemory || child.exit_code == kChildThrewNumber + 1)
+    throw std::bad_alloc();
   if (child.exit_code >= kChildThrewNumber)
     throw JobError(reason_of(child.exit_code - kChildThrewNumber) + "; switches " + switches);
   throw JobError("TetGen ended with code " + std::to_string(child.exit_code) + "; switches " + switches);
@@ -119,25 +121,21 @@ TetgenOutput run_tetgen(SurfaceNet& net, const std::string& switches) {
   return result;
 }
 
-// Until TetGen's own check (-d lists the facets that intersect) finds none.
-void repair(SurfaceNet& net, int rounds) {
-  for (int round = 0;; ++round) {
-    const TetgenOutput check = run_tetgen(net, "pdQ");
-    if (check.facets.empty()) return;
-    if (round == rounds)
-      throw JobError("the surface net still has " + std::to_string(check.facets.size()) +
-                     " intersecting facets after " + std::to_string(rounds) +
-                     " repair rounds; raise --repair-rounds or lower --smoothing-steps");
-    std::vector<std::uint8_t> flagged(net.points.size(), 0);
-    for (const auto& facet : check.facets)
-      for (const int v : facet) flagged[static_cast<std::size_t>(v)] = 1;
-    retract(net, flagged);
-  }
+// Moves the vertices of intersecting facets, as TetGen's own check (-d) lists them, towards the voxels'
+// boundary. False when there are none.
+bool repair(SurfaceNet& net) {
+  const TetgenOutput check = run_tetgen(net, "pdQ");
+  std::vector<std::uint8_t> flagged(net.points.size(), 0);
+  for (const auto& facet : check.facets)
+    for (const int v : facet) flagged[static_cast<std::size_t>(v)] = 1;
+  retract(net, flagged);
+  return !check.facets.empty();
 }
 
 // The material of every region: what most of its volume shows in the image.
 std::vector<MaterialId> vote(const TetgenOutput& output, const LabelImage& image) {
-  const double last = output.regions.empty() ? 0 : *std::max_element(output.regions.begin(), output.regions.end());
+  const double last =
+      output.regions.empty() ? 0 : *std::max_element(output.regions.begin(), output.regions.end());
   const std::size_t regions = static_cast<std::size_t>(std::max(0.0, last)) + 1;
   const std::size_t materials = image.material_count();
   std::vector<double> volumes(regions * materials, 0.0);
@@ -151,7 +149,8 @@ std::vector<MaterialId> vote(const TetgenOutput& output, const LabelImage& image
   std::vector<MaterialId> winners(regions);
   for (std::size_t r = 0; r < regions; ++r) {
     const auto first = volumes.begin() + static_cast<std::ptrdiff_t>(r * materials);
-    winners[r] = static_cast<MaterialId>(std::max_element(first, first + static_cast<std::ptrdiff_t>(materials)) - first);
+    winners[r] = static_cast<MaterialId>(
+        std::max_element(first, first + static_cast<std::ptrdiff_t>(materials)) - first);
   }
   return winners;
 }
@@ -188,17 +187,30 @@ std::string mesh_switches(const TetgenOptions& options) {
   return text.str();
 }
 
+// The check takes longer than the meshing and the nets hardly ever need it: mesh first, check and repair only
+// after a failure.
+TetgenOutput tetrahedralize_with_repair(SurfaceNet& net, const TetgenOptions& options, StageTimes& stages) {
+  for (int round = 0;; ++round) {
+    stages.start("tetrahedra");
+    try {
+      return run_tetgen(net, mesh_switches(options));
+    } catch (const JobError& failure) {
+      stages.start("repair");
+      if (round == options.repair_rounds || !repair(net))
+        throw JobError(std::string(failure.what()) + ", after " + std::to_string(round) + " repair rounds");
+    }
+  }
+}
+
 }  // namespace
 
 Mesh mesh_with_tetgen(const LabelImage& image, const TetgenOptions& options, StageTimes& stages) {
   stages.start("surface");
   SurfaceNetOptions net_options;
   net_options.smoothing_steps = options.smoothing_steps;
+  net_options.reach = options.reach;
   SurfaceNet net = surface_net(image, net_options);
-  stages.start("repair");
-  repair(net, options.repair_rounds);
-  stages.start("tetrahedra");
-  const TetgenOutput output = run_tetgen(net, mesh_switches(options));
+  const TetgenOutput output = tetrahedralize_with_repair(net, options, stages);
   if (output.regions.size() != output.tets.size()) throw JobError("TetGen gave its tets no regions");
   stages.start("label");
   Mesh mesh = to_mesh(output, image);
