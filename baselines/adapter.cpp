@@ -16,7 +16,8 @@ Availability executable_availability(const std::filesystem::path& bin_dir, const
 void require_known_parameters(const std::string& mesher, const std::vector<ParameterSpec>& known,
                               const MeshJob& job) {
   for (const auto& [key, value] : job.parameters) {
-    const bool found = std::any_of(known.begin(), known.end(), [&](const auto& spec) { return spec.key == key; });
+    const bool found =
+        std::any_of(known.begin(), known.end(), [&](const auto& spec) { return spec.key == key; });
     if (found) continue;
     std::string keys;
     for (const ParameterSpec& spec : known) keys += (keys.empty() ? "" : ", ") + spec.key;
@@ -27,8 +28,8 @@ void require_known_parameters(const std::string& mesher, const std::vector<Param
 std::vector<std::string> protocol_command(const std::filesystem::path& executable, const std::string& mesher,
                                           const std::vector<ParameterSpec>& known, const MeshJob& job) {
   require_known_parameters(mesher, known, job);
-  std::vector<std::string> argv{executable.string(), "--image",  job.image.string(),  "--out",
-                                job.mesh.string(),   "--report", job.report.string(), "--threads",
+  std::vector<std::string> argv{executable.string(),         "--image",  job.image.string(),  "--out",
+                                job.mesh.string(),           "--report", job.report.string(), "--threads",
                                 std::to_string(job.threads), "--quiet"};
   for (const auto& [key, value] : job.parameters) {
     argv.push_back("--" + key);

@@ -20,10 +20,11 @@ struct MeshJob {
 
 /// A parameter of a mesher, given on its command line as `--key value`.
 struct ParameterSpec {
-  std::string key;            ///< long option without its dashes
-  std::string default_value;  ///< as text; "preset" where the mesher's preset decides, "off" where it is not applied
-  std::string unit;           ///< "mm", "deg", ...; "" for a bare number, "true|false" for a switch
-  std::string description;    ///< one line
+  std::string key;  ///< long option without its dashes
+  std::string
+      default_value;  ///< as text; "preset" where the mesher's preset decides, "off" where it is not applied
+  std::string unit;   ///< "mm", "deg", ...; "" for a bare number, "true|false" for a switch
+  std::string description;  ///< one line
 };
 
 /// Whether a mesher can run here; `reason` says why not and how to get it.

@@ -155,8 +155,8 @@ void write_report(const MesherProgram& program, const Request& request, const Pa
   write_text_file(request.job.report, report.dump(2) + "\n");
 }
 
-Mesh timed_run(const MesherProgram& program, const LabelImage& image, const ParameterValues& values, int threads,
-               Outcome& outcome) {
+Mesh timed_run(const MesherProgram& program, const LabelImage& image, const ParameterValues& values,
+               int threads, Outcome& outcome) {
   const double cpu_before = cpu_seconds_with_children();
   const Stopwatch watch;
   const auto take_times = [&] {

@@ -9,7 +9,7 @@
 namespace cbc3d::baselines {
 
 const std::vector<Adapter>& registry() {
-  static const std::vector<Adapter> adapters{cbc3d_adapter(), cbc3d_paper_adapter(),  cbc3d_mixed_adapter(),
+  static const std::vector<Adapter> adapters{cbc3d_adapter(), cbc3d_paper_adapter(),   cbc3d_mixed_adapter(),
                                              cgal_adapter(),  cgal_parallel_adapter(), tetgen_adapter()};
   return adapters;
 }

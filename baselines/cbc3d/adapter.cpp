@@ -19,7 +19,8 @@ std::vector<ParameterSpec> parameters() {
       {"relabel-noise", "preset", "none|holes|specks|both", "which unconnected voxel groups are relabelled"},
       {"region-tolerance", "1e-4", "", "share of its material below which an unconnected group is noise"},
       {"iterations", "preset", "", "iterations of the deformation"},
-      {"connectivity", "preset", "vertex|edge|face|no", "which target points a surface vertex is matched with"},
+      {"connectivity", "preset", "vertex|edge|face|no",
+       "which target points a surface vertex is matched with"},
       {"young-pa", "preset", "Pa", "Young's modulus of the elastic body"},
       {"poisson", "preset", "", "Poisson's ratio of the elastic body"},
       {"min-dihedral", "preset", "deg", "dihedral angle that every element must keep"},
@@ -59,14 +60,22 @@ Adapter make(std::string name, std::string description, const std::vector<std::s
   adapter.multithreaded = true;
   adapter.parameters = parameters();
   adapter.availability = [](const std::filesystem::path& bin_dir) {
-    return executable_availability(bin_dir, "cbc3d", "the program cbc3d is not built: build the target cbc3d");
+    return executable_availability(bin_dir, "cbc3d",
+                                   "the program cbc3d is not built: build the target cbc3d");
   };
   adapter.command = [name, options, specs = adapter.parameters](const std::filesystem::path& bin_dir,
                                                                 const MeshJob& job) {
     require_known_parameters(name, specs, job);
-    std::vector<std::string> argv{(bin_dir / "cbc3d").string(), "mesh", job.image.string(), "--out",
-                                  job.mesh.string(), "--report", job.report.string(), "--threads",
-                                  std::to_string(job.threads), "--quiet"};
+    std::vector<std::string> argv{(bin_dir / "cbc3d").string(),
+                                  "mesh",
+                                  job.image.string(),
+                                  "--out",
+                                  job.mesh.string(),
+                                  "--report",
+                                  job.report.string(),
+                                  "--threads",
+                                  std::to_string(job.threads),
+                                  "--quiet"};
     argv.insert(argv.end(), options.begin(), options.end());
     for (const auto& [key, value] : job.parameters)
       append_parameter(argv, name, is_switch(specs, key), key, value);

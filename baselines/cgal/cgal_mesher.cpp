@@ -75,9 +75,12 @@ void copy_padded(const LabelImage& image, Word* words) {
 
 // The image in CGAL's own form: padded, material indices as words of `word_bytes`, no translation.
 CGAL::Image_3 to_cgal_image(const LabelImage& image, std::size_t word_bytes) {
-  const auto padded = [&](int axis) { return static_cast<std::size_t>(image.frame.size[axis]) + 2 * kPadding; };
+  const auto padded = [&](int axis) {
+    return static_cast<std::size_t>(image.frame.size[axis]) + 2 * kPadding;
+  };
   const Vec3& h = image.frame.spacing_mm;
-  _image* raw = _createImage(padded(0), padded(1), padded(2), 1, h.x, h.y, h.z, word_bytes, WK_FIXED, SGN_UNSIGNED);
+  _image* raw =
+      _createImage(padded(0), padded(1), padded(2), 1, h.x, h.y, h.z, word_bytes, WK_FIXED, SGN_UNSIGNED);
   if (raw == nullptr || raw->data == nullptr) throw std::bad_alloc();
   if (word_bytes == 1)
     copy_padded(image, static_cast<std::uint8_t*>(raw->data));
@@ -87,8 +90,8 @@ CGAL::Image_3 to_cgal_image(const LabelImage& image, std::size_t word_bytes) {
 }
 
 // First points on the surface of every connected component, so that none goes unseen.
-void seed_components(Complex& complex, const Domain& domain, const CGAL::Image_3& image, const Criteria& criteria,
-                     std::size_t word_bytes) {
+void seed_components(Complex& complex, const Domain& domain, const CGAL::Image_3& image,
+                     const Criteria& criteria, std::size_t word_bytes) {
   const SilencedStandardOutput silence;
   if (word_bytes == 1)
     initialize_triangulation_from_labeled_image(complex, domain, image, criteria, std::uint8_t{});
@@ -162,8 +165,9 @@ Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageTi
   stages.start("export");
   Mesh mesh = to_mesh(complex, image);
   if (mesh.tets.size() == 0)
-    throw JobError("CGAL made no cell: the labelled regions are smaller than the criteria; lower --facet-size and "
-                   "--cell-size");
+    throw JobError(
+        "CGAL made no cell: the labelled regions are smaller than the criteria; lower --facet-size and "
+        "--cell-size");
   map_to_physical(mesh, image.frame);
   return mesh;
 }

@@ -8,6 +8,8 @@ std::vector<ParameterSpec> parameters() {
       {"radius-edge-ratio", "1.4", "", "largest circumradius to shortest edge ratio of a tet"},
       {"max-volume", "8", "mm^3", "largest volume of a tet"},
       {"smoothing-steps", "20", "", "smoothing steps of the surface net"},
+      {"reach", "0.3", "voxel",
+       "largest distance of a net vertex from its place on the voxels' boundary, by axis"},
       {"repair-rounds", "10", "", "rounds in which intersecting facets are moved apart before giving up"},
   };
 }
