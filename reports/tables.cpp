@@ -112,7 +112,6 @@ class Columns {
       const std::string name = name_of(result);
       if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
         names_.push_back(name);
-        meshers_.push_back(text_of(result, "mesher"));
       }
     }
   }
@@ -124,12 +123,10 @@ class Columns {
                : mesher + " (" + std::to_string(threads) + (threads == 1 ? " thread)" : " threads)");
   }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  [[nodiscard]] const std::vector<std::string>& meshers() const { return meshers_; }
 
  private:
   std::map<std::string, std::set<int>> threads_;
   std::vector<std::string> names_;
-  std::vector<std::string> meshers_;
 };
 
 /// Status and reason of a line that is not ok.
@@ -172,24 +169,43 @@ Cell cell_of(const std::vector<const Json*>& runs, const Measure& measure) {
   return cell;
 }
 
-/// The paper's figure for a mesher. Variants share their method's: cbc3d-paper has cbc3d's, but not a mixed
-/// mesh.
-std::optional<double> paper_figure(const std::vector<cases::Case>& cases, const std::string& case_name,
-                                   const std::string& mesher, const std::string& key) {
-  const auto found =
-      std::find_if(cases.begin(), cases.end(), [&](const cases::Case& c) { return c.name == case_name; });
-  if (found == cases.end() || key.empty() || !found->paper.is_object()) {
+/// The paper's Hausdorff distance after a deformation with the run's own pattern and iterations, as a case's
+/// manifest has it from the table on deformation.
+std::optional<double> paper_deformation_figure(const nlohmann::json& deformation, const Json& run) {
+  const Json pattern = figure(run, {"parameters", "connectivity"});
+  const Json iterations = figure(run, {"parameters", "iterations"});
+  const std::string expected = deformation.value("iterations", nlohmann::json()).dump();
+  if (!pattern.is_string() || !iterations.is_string() || iterations.get<std::string>() != expected) {
     return std::nullopt;
   }
-  for (const std::string& name :
-       {mesher, mesher == "cbc3d-mixed" ? mesher : mesher.substr(0, mesher.find('-'))}) {
-    const auto figures = found->paper.find(name);
-    if (figures != found->paper.end() && figures->is_object() && figures->contains(key) &&
-        (*figures)[key].is_number()) {
-      return (*figures)[key].get<double>();
+  const auto value = at({"patterns", pattern.get<std::string>(), "hausdorff_mm"});
+  return value(Json(deformation));
+}
+
+/// The paper's figure beside a run's: that under the mesher's name, or under its method's (cbc3d-paper and
+/// cbc3d are one, a mixed mesh is not), or for a distance that of the table on deformation.
+std::optional<double> paper_figure(const cases::Case& subject, const Json& run, const std::string& key) {
+  const std::string mesher = text_of(run, "mesher");
+  const std::string method = mesher == "cbc3d-mixed" ? mesher : mesher.substr(0, mesher.find('-'));
+  for (const std::string& name : {mesher, method}) {
+    if (const auto value = at({name, key})(Json(subject.paper))) {
+      return value;
     }
   }
-  return std::nullopt;
+  const bool deformed = method == "cbc3d" && key == "hausdorff_mm" && subject.paper.contains("deformation");
+  return deformed ? paper_deformation_figure(subject.paper["deformation"], run) : std::nullopt;
+}
+
+/// `runs`: as for cell_of.
+std::optional<double> paper_figure(const std::vector<cases::Case>& cases,
+                                   const std::vector<const Json*>& runs, const std::string& key) {
+  if (runs.empty() || key.empty()) {
+    return std::nullopt;
+  }
+  const std::string name = text_of(*runs.front(), "case");
+  const auto found =
+      std::find_if(cases.begin(), cases.end(), [&](const cases::Case& c) { return c.name == name; });
+  return found == cases.end() ? std::nullopt : paper_figure(*found, *runs.front(), key);
 }
 
 std::vector<std::string> case_names(const std::vector<Json>& results) {
@@ -217,7 +233,7 @@ Table build_table(const TablePlan& plan, const std::vector<Json>& results,
           }
         }
         row.cells.push_back(cell_of(runs, measure));
-        row.cells.back().paper = paper_figure(cases, case_name, columns.meshers()[column], measure.paper_key);
+        row.cells.back().paper = paper_figure(cases, runs, measure.paper_key);
       }
       table.rows.push_back(std::move(row));
     }
