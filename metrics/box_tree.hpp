@@ -85,6 +85,32 @@ class BoxTree {
     return best;
   }
 
+  /// True when a primitive within sqrt(squared_radius) of p satisfies accept(primitive).
+  template <class Accept>
+  [[nodiscard]] bool any_within(const Vec3& p, double squared_radius, const Accept& accept) const {
+    std::array<Pending, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, 0, 0, primitives_.size()};
+    while (depth > 0) {
+      const Pending at = stack[--depth];
+      if (nodes_[at.node].squared_distance(p) > squared_radius) {
+        continue;
+      }
+      if (at.node >= first_leaf_) {
+        for (std::size_t i = at.begin; i < at.end; ++i) {
+          if (primitives_[i].squared_distance(p) <= squared_radius && accept(primitives_[i])) {
+            return true;
+          }
+        }
+        continue;
+      }
+      const std::size_t middle = at.begin + (at.end - at.begin) / 2;
+      stack[depth++] = {0, 2 * at.node + 2, middle, at.end};
+      stack[depth++] = {0, 2 * at.node + 1, at.begin, middle};
+    }
+    return false;
+  }
+
  private:
   static constexpr std::size_t kLeafSize = 4;
   struct Pending {
