@@ -111,7 +111,7 @@ class JobRun {
 
  private:
   [[nodiscard]] ChildResult start(std::vector<std::string> argv, int threads) const {
-    const ChildResult child =
+    ChildResult child =
         run_child({std::move(argv), threads, options_.timeout_s, options_.memory_limit_bytes});
     if (!(child.end == ChildEnd::exited && child.exit_code == 0)) {
       write_text_file(files_.log, child.stderr_tail);

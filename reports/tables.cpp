@@ -225,10 +225,10 @@ Table build_table(const TablePlan& plan, const std::vector<Json>& results,
   for (const std::string& case_name : case_names(results)) {
     for (const Measure& measure : plan.measures) {
       Row row{case_name, measure.name, measure.decimals, {}};
-      for (std::size_t column = 0; column < table.columns.size(); ++column) {
+      for (const std::string& column : table.columns) {
         std::vector<const Json*> runs;
         for (const Json& result : results) {
-          if (text_of(result, "case") == case_name && columns.name_of(result) == table.columns[column]) {
+          if (text_of(result, "case") == case_name && columns.name_of(result) == column) {
             runs.push_back(&result);
           }
         }
