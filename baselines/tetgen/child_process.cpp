@@ -87,10 +87,11 @@ ChildResult run_in_child(const std::function<void(const Send&)>& work) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFSIGNALED(status))
+  if (WIFSIGNALED(status)) {
     result.signal = WTERMSIG(status);
-  else
+  } else {
     result.exit_code = WEXITSTATUS(status);
+  }
   return result;
 }
 
