@@ -166,10 +166,11 @@ Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageTi
 
   stages.start("export");
   Mesh mesh = to_mesh(complex, image);
-  if (mesh.tets.size() == 0)
+  if (mesh.tets.size() == 0) {
     throw JobError(
         "CGAL made no cell: the labelled regions are smaller than the criteria; lower --facet-size and "
         "--cell-size");
+  }
   map_to_physical(mesh, image.frame);
   return mesh;
 }
