@@ -13,15 +13,23 @@ Availability executable_availability(const std::filesystem::path& bin_dir, const
   return {false, remedy};
 }
 
+namespace {
+
+std::string unknown_parameter(const std::string& mesher, const std::vector<ParameterSpec>& known,
+                              const std::string& key, const std::string& value) {
+  std::string message = mesher + "." + key + "=" + value + ": no such parameter; " + mesher + " knows ";
+  for (const ParameterSpec& spec : known) message += (&spec == &known.front() ? "" : ", ") + spec.key;
+  return message;
+}
+
+}  // namespace
+
 void require_known_parameters(const std::string& mesher, const std::vector<ParameterSpec>& known,
                               const MeshJob& job) {
-  for (const auto& [key, value] : job.parameters) {
-    const bool found =
-        std::any_of(known.begin(), known.end(), [&](const auto& spec) { return spec.key == key; });
-    if (found) continue;
-    std::string keys;
-    for (const ParameterSpec& spec : known) keys += (keys.empty() ? "" : ", ") + spec.key;
-    throw InputError(mesher + "." + key + "=" + value + ": no such parameter; " + mesher + " knows " + keys);
+  for (const auto& parameter : job.parameters) {
+    const auto same = [&](const ParameterSpec& spec) { return spec.key == parameter.first; };
+    if (std::any_of(known.begin(), known.end(), same)) continue;
+    throw InputError(unknown_parameter(mesher, known, parameter.first, parameter.second));
   }
 }
 

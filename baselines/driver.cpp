@@ -57,9 +57,10 @@ std::string as_text(double number) {
 double ParameterValues::number(const std::string& key, double lowest, double highest) const {
   const std::string& value = values_.at(key);
   double result = 0;
-  if (!parse_number(value, result) || result < lowest || result > highest)
+  if (!parse_number(value, result) || result < lowest || result > highest) {
     throw InputError("--" + key + " " + value + ": give a number from " + as_text(lowest) + " to " +
                      as_text(highest));
+  }
   return result;
 }
 
@@ -124,10 +125,11 @@ void add_options(CLI::App& app, Request& request, ParameterValues& values,
       ->default_val(0)
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--quiet", request.quiet, "no progress on standard error");
-  for (const ParameterSpec& spec : specs)
+  for (const ParameterSpec& spec : specs) {
     app.add_option("--" + spec.key, values.text(spec.key),
                    spec.description + (spec.unit.empty() ? "" : " [" + spec.unit + "]"))
         ->default_str(spec.default_value);
+  }
 }
 
 nlohmann::ordered_json json_value(const std::string& text) {

@@ -52,10 +52,11 @@ void append_parameter(std::vector<std::string>& argv, const std::string& mesher,
 }
 
 // `options`: what tells this adapter from the others, put before the job's parameters.
-Adapter make(std::string name, std::string description, const std::vector<std::string>& options) {
+Adapter make(const std::string& name, const std::string& description,
+             const std::vector<std::string>& options) {
   Adapter adapter;
   adapter.name = name;
-  adapter.description = std::move(description);
+  adapter.description = description;
   adapter.licence = "Apache-2.0";
   adapter.multithreaded = true;
   adapter.parameters = parameters();

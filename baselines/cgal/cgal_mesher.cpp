@@ -82,10 +82,11 @@ CGAL::Image_3 to_cgal_image(const LabelImage& image, std::size_t word_bytes) {
   _image* raw =
       _createImage(padded(0), padded(1), padded(2), 1, h.x, h.y, h.z, word_bytes, WK_FIXED, SGN_UNSIGNED);
   if (raw == nullptr || raw->data == nullptr) throw std::bad_alloc();
-  if (word_bytes == 1)
+  if (word_bytes == 1) {
     copy_padded(image, static_cast<std::uint8_t*>(raw->data));
-  else
+  } else {
     copy_padded(image, static_cast<std::uint16_t*>(raw->data));
+  }
   return CGAL::Image_3(raw, CGAL::Image_3::OWN_THE_DATA);
 }
 
@@ -93,10 +94,11 @@ CGAL::Image_3 to_cgal_image(const LabelImage& image, std::size_t word_bytes) {
 void seed_components(Complex& complex, const Domain& domain, const CGAL::Image_3& image,
                      const Criteria& criteria, std::size_t word_bytes) {
   const SilencedStandardOutput silence;
-  if (word_bytes == 1)
+  if (word_bytes == 1) {
     initialize_triangulation_from_labeled_image(complex, domain, image, criteria, std::uint8_t{});
-  else
+  } else {
     initialize_triangulation_from_labeled_image(complex, domain, image, criteria, std::uint16_t{});
+  }
 }
 
 void improve(Complex& complex, const Domain& domain, const CgalOptions& options, StageTimes& stages) {
@@ -164,10 +166,11 @@ Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageTi
 
   stages.start("export");
   Mesh mesh = to_mesh(complex, image);
-  if (mesh.tets.size() == 0)
+  if (mesh.tets.size() == 0) {
     throw JobError(
         "CGAL made no cell: the labelled regions are smaller than the criteria; lower --facet-size and "
         "--cell-size");
+  }
   map_to_physical(mesh, image.frame);
   return mesh;
 }

@@ -19,11 +19,14 @@ LabelImage two_material_ball() {
   image.labels = {0, 1, 2, 9};
   image.voxels.assign(image.frame.voxel_count(), kBackground);
   const Vec3 centre{6.2, 9.0, 11.0};
-  for (int k = 0; k < 16; ++k)
-    for (int j = 0; j < 24; ++j)
-      for (int i = 0; i < 20; ++i)
+  for (int k = 0; k < 16; ++k) {
+    for (int j = 0; j < 24; ++j) {
+      for (int i = 0; i < 20; ++i) {
         if ((image.frame.local_centre(i, j, k) - centre).norm() < 7.0)
           image.voxels[image.frame.offset(i, j, k)] = k < 7 ? 1 : 2;
+      }
+    }
+  }
   image.voxels[image.frame.offset(17, 20, 13)] = 3;
   return image;
 }
@@ -70,9 +73,10 @@ TEST(SurfaceNets, EveryMaterialIsClosedAndConsistentlyOriented) {
 TEST(SurfaceNets, EdgesHaveTwoFacetsAndMoreOnlyWhereThreeLabelsMeet) {
   const SurfaceNet net = surface_net(two_material_ball(), {});
   std::map<std::pair<int, int>, int> facets;
-  for (const auto& [a, b, c] : net.triangles)
+  for (const auto& [a, b, c] : net.triangles) {
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
       ++facets[std::minmax(from, to)];
+  }
   int junctions = 0;
   for (const auto& [edge, count] : facets) {
     EXPECT_TRUE(count == 2 || count == 3) << count;
@@ -87,13 +91,14 @@ TEST(SurfaceNets, VerticesStayWithinTheirReach) {
   const LabelImage image = two_material_ball();
   const SurfaceNet net = surface_net(image, options);
   double farthest = 0;
-  for (std::size_t v = 0; v < net.points.size(); ++v)
+  for (std::size_t v = 0; v < net.points.size(); ++v) {
     for (int axis = 0; axis < 3; ++axis) {
       const double share =
           std::fabs(net.points[v][axis] - net.centres[v][axis]) / image.frame.spacing_mm[axis];
       EXPECT_LE(share, options.reach + 1e-12);
       farthest = std::fmax(farthest, share);
     }
+  }
   EXPECT_GT(farthest, 0.2);
 }
 

@@ -1,11 +1,13 @@
 #include "baselines/tetgen/child_process.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -48,7 +50,12 @@ void write_all(int fd, const void* data, std::size_t bytes) {
   }
 }
 
-[[noreturn]] void be_the_child(const std::function<void(const Send&)>& work, int fd) {
+[[noreturn]] void be_the_child(const std::function<void(const Send&)>& work, int fd, pid_t parent) {
+  // A parent that is killed, for taking too long say, takes its child along.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) {
+    ::_exit(kChildThrew);
+  }
   drop_standard_streams();
   std::set_terminate(end_by_exception);
   std::thread([&] {
@@ -74,11 +81,12 @@ ChildResult run_in_child(const std::function<void(const Send&)>& work) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw JobError(std::string("no pipe to a child process: ") + std::strerror(errno));
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) throw JobError(std::string("no child process: ") + std::strerror(errno));
   if (child == 0) {
     ::close(ends[0]);
-    be_the_child(work, ends[1]);
+    be_the_child(work, ends[1], parent);
   }
   ::close(ends[1]);
   ChildResult result;
@@ -87,10 +95,11 @@ ChildResult run_in_child(const std::function<void(const Send&)>& work) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFSIGNALED(status))
+  if (WIFSIGNALED(status)) {
     result.signal = WTERMSIG(status);
-  else
+  } else {
     result.exit_code = WEXITSTATUS(status);
+  }
   return result;
 }
 

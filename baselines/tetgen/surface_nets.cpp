@@ -31,9 +31,10 @@ struct DualGrid {
   // The materials at the cell's corners, x fastest.
   [[nodiscard]] std::array<MaterialId, 8> corners(int i, int j, int k) const {
     std::array<MaterialId, 8> materials{};
-    for (int c = 0; c < 8; ++c)
+    for (int c = 0; c < 8; ++c) {
       materials[static_cast<std::size_t>(c)] =
           image.at_or_background(i - 1 + (c & 1), j - 1 + ((c >> 1) & 1), k - 1 + (c >> 2));
+    }
     return materials;
   }
   [[nodiscard]] Vec3 centre(int i, int j, int k) const {
@@ -58,13 +59,14 @@ std::array<MaterialId, 4> face_corners(const std::array<MaterialId, 8>& corners,
   return result;
 }
 
-// Calls visit(i, j, k, slot) for every cell, slices in parallel.
+// Calls visit(i, j, k) for every cell, slices in parallel.
 template <typename Visit>
 void for_each_cell(const DualGrid& grid, Visit visit) {
 #pragma omp parallel for schedule(dynamic)
-  for (int k = 0; k < grid.size[2]; ++k)
+  for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j)
       for (int i = 0; i < grid.size[0]; ++i) visit(i, j, k);
+  }
 }
 
 // Numbers the cells that see more than one label, in grid order; -1 for the others.
@@ -103,8 +105,7 @@ std::array<int, 6> links_of(const DualGrid& grid, const std::vector<int>& ids, i
 }
 
 void place_vertices(const DualGrid& grid, const std::vector<int>& ids, SurfaceNet& net) {
-  const int last = *std::max_element(ids.begin(), ids.end());
-  const auto count = static_cast<std::size_t>(last + 1);
+  const std::size_t count = 1 + static_cast<std::size_t>(*std::max_element(ids.begin(), ids.end()));
   net.centres.resize(count);
   net.links.resize(count);
   for_each_cell(grid, [&](int i, int j, int k) {
@@ -178,14 +179,16 @@ void add_quad(const DualGrid& grid, const std::vector<int>& ids, const Index3& v
 void collect_quads(const DualGrid& grid, const std::vector<int>& ids, std::vector<Quad>& quads,
                    std::vector<NetSides>& sides) {
   const Index3& n = grid.image.frame.size;
-  for (int k = 0; k <= n[2]; ++k)
-    for (int j = 0; j <= n[1]; ++j)
+  for (int k = 0; k <= n[2]; ++k) {
+    for (int j = 0; j <= n[1]; ++j) {
       for (int i = 0; i <= n[0]; ++i) {
         // A face of an axis needs its voxel inside the image along the two others.
         if (j < n[1] && k < n[2]) add_quad(grid, ids, {i, j, k}, 0, quads, sides);
         if (i < n[0] && k < n[2]) add_quad(grid, ids, {i, j, k}, 1, quads, sides);
         if (i < n[0] && j < n[1]) add_quad(grid, ids, {i, j, k}, 2, quads, sides);
       }
+    }
+  }
 }
 
 // Splits every quad along its shorter diagonal.

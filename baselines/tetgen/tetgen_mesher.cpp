@@ -23,22 +23,35 @@ struct TetgenOutput {
   std::vector<std::array<int, 3>> facets;
 };
 
-// Runs only in a child process, which ends without freeing anything.
-void give_net(SurfaceNet& net, tetgenio& input) {
-  static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<int, 3>) == 3 * sizeof(int));
-  input.numberofpoints = static_cast<int>(net.points.size());
-  input.pointlist = &net.points.front().x;
-  input.numberoffacets = static_cast<int>(net.triangles.size());
-  input.facetlist = new tetgenio::facet[net.triangles.size()];
-  auto* polygons = new tetgenio::polygon[net.triangles.size()];
-  for (std::size_t t = 0; t < net.triangles.size(); ++t) {
-    polygons[t].vertexlist = net.triangles[t].data();
-    polygons[t].numberofvertices = 3;
-    tetgenio::init(&input.facetlist[t]);
-    input.facetlist[t].polygonlist = &polygons[t];
-    input.facetlist[t].numberofpolygons = 1;
+// The net as TetGen takes it, lending it the net's own arrays.
+class NetInput {
+ public:
+  explicit NetInput(SurfaceNet& net) : polygons_(net.triangles.size()), facets_(net.triangles.size()) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<int, 3>) == 3 * sizeof(int));
+    for (std::size_t t = 0; t < net.triangles.size(); ++t) {
+      polygons_[t].vertexlist = net.triangles[t].data();
+      polygons_[t].numberofvertices = 3;
+      tetgenio::init(&facets_[t]);
+      facets_[t].polygonlist = &polygons_[t];
+      facets_[t].numberofpolygons = 1;
+    }
+    io_.numberofpoints = static_cast<int>(net.points.size());
+    io_.pointlist = &net.points.front().x;
+    io_.numberoffacets = static_cast<int>(facets_.size());
+    io_.facetlist = facets_.data();
   }
-}
+  // tetgenio frees what its pointers show unless they are reset.
+  ~NetInput() { io_.initialize(); }
+  NetInput(const NetInput&) = delete;
+  NetInput& operator=(const NetInput&) = delete;
+
+  tetgenio* io() { return &io_; }
+
+ private:
+  std::vector<tetgenio::polygon> polygons_;
+  std::vector<tetgenio::facet> facets_;
+  tetgenio io_;
+};
 
 template <typename Item>
 void send_array(const Send& send, const void* data, int count) {
@@ -86,9 +99,10 @@ std::string reason_of(int tetgen_code) {
 
 // TetGen's code 1 says that memory ran out.
 void require_success(const ChildResult& child, const std::string& switches) {
-  if (child.signal != 0)
+  if (child.signal != 0) {
     throw JobError("TetGen died of signal " + std::to_string(child.signal) + " (" +
                    ::strsignal(child.signal) + ") with the switches " + switches);
+  }
   if (child.exit_code == 0) return;
   if (child.exit_code == kChildOutOfMemory || child.exit_code == kChildThrewNumber + 1)
     throw std::bad_alloc();
@@ -100,16 +114,15 @@ void require_success(const ChildResult& child, const std::string& switches) {
 // TetGen 1.5 frees twice when its own exceptions unwind and may call exit(): it gets a process of its own.
 TetgenOutput run_tetgen(SurfaceNet& net, const std::string& switches) {
   const ChildResult child = run_in_child([&](const Send& send) {
-    auto* input = new tetgenio;
-    auto* output = new tetgenio;
-    give_net(net, *input);
+    NetInput input(net);
+    tetgenio output;
     std::string text = switches;
-    ::tetrahedralize(text.data(), input, output);
-    send_array<Vec3>(send, output->pointlist, output->numberofpoints);
-    send_array<std::array<int, 4>>(send, output->tetrahedronlist, output->numberoftetrahedra);
-    const bool has_regions = output->numberoftetrahedronattributes == 1;
-    send_array<double>(send, output->tetrahedronattributelist, has_regions ? output->numberoftetrahedra : 0);
-    send_array<std::array<int, 3>>(send, output->trifacelist, output->numberoftrifaces);
+    ::tetrahedralize(text.data(), input.io(), &output);
+    send_array<Vec3>(send, output.pointlist, output.numberofpoints);
+    send_array<std::array<int, 4>>(send, output.tetrahedronlist, output.numberoftetrahedra);
+    const bool has_regions = output.numberoftetrahedronattributes == 1;
+    send_array<double>(send, output.tetrahedronattributelist, has_regions ? output.numberoftetrahedra : 0);
+    send_array<std::array<int, 3>>(send, output.trifacelist, output.numberoftrifaces);
   });
   require_success(child, switches);
   ByteReader reader(child.output);
