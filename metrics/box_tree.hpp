@@ -45,10 +45,14 @@ class BoxTree {
     }
     nodes_.resize(2 * leaves - 1);
     first_leaf_ = leaves - 1;
+#pragma omp parallel
+#pragma omp single
     build(0, 0, primitives_.size());
   }
 
-  [[nodiscard]] bool empty() const { return primitives_.empty(); }
+  [[nodiscard]] bool empty() const {
+    return primitives_.empty();
+  }
 
   /// Squared distance to the nearest primitive (infinity without one), and which one it is. `hint`, an index
   /// this returned for a nearby point, only makes it faster.
@@ -148,8 +152,11 @@ class BoxTree {
     std::nth_element(at(begin), at(middle), at(end), [axis](const Primitive& a, const Primitive& b) {
       return middle_of(a)[axis] < middle_of(b)[axis];
     });
+    constexpr std::size_t kTaskSize = 32768;
+#pragma omp task if (end - begin > kTaskSize)
     build(2 * node + 1, begin, middle);
     build(2 * node + 2, middle, end);
+#pragma omp taskwait
   }
 
   std::vector<Primitive> primitives_;
