@@ -45,10 +45,14 @@ class BoxTree {
     }
     nodes_.resize(2 * leaves - 1);
     first_leaf_ = leaves - 1;
+#pragma omp parallel
+#pragma omp single
     build(0, 0, primitives_.size());
   }
 
-  [[nodiscard]] bool empty() const { return primitives_.empty(); }
+  [[nodiscard]] bool empty() const {
+    return primitives_.empty();
+  }
 
   /// Squared distance to the nearest primitive (infinity without one), and which one it is. `hint`, an index
   /// this returned for a nearby point, only makes it faster.
@@ -83,6 +87,32 @@ class BoxTree {
       stack[depth++] = near;
     }
     return best;
+  }
+
+  /// True when a primitive within sqrt(squared_radius) of p satisfies accept(primitive).
+  template <class Accept>
+  [[nodiscard]] bool any_within(const Vec3& p, double squared_radius, const Accept& accept) const {
+    std::array<Pending, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, 0, 0, primitives_.size()};
+    while (depth > 0) {
+      const Pending at = stack[--depth];
+      if (nodes_[at.node].squared_distance(p) > squared_radius) {
+        continue;
+      }
+      if (at.node >= first_leaf_) {
+        for (std::size_t i = at.begin; i < at.end; ++i) {
+          if (primitives_[i].squared_distance(p) <= squared_radius && accept(primitives_[i])) {
+            return true;
+          }
+        }
+        continue;
+      }
+      const std::size_t middle = at.begin + (at.end - at.begin) / 2;
+      stack[depth++] = {0, 2 * at.node + 2, middle, at.end};
+      stack[depth++] = {0, 2 * at.node + 1, at.begin, middle};
+    }
+    return false;
   }
 
  private:
@@ -122,8 +152,11 @@ class BoxTree {
     std::nth_element(at(begin), at(middle), at(end), [axis](const Primitive& a, const Primitive& b) {
       return middle_of(a)[axis] < middle_of(b)[axis];
     });
+    constexpr std::size_t kTaskSize = 32768;
+#pragma omp task if (end - begin > kTaskSize)
     build(2 * node + 1, begin, middle);
     build(2 * node + 2, middle, end);
+#pragma omp taskwait
   }
 
   std::vector<Primitive> primitives_;

@@ -28,8 +28,8 @@ double directed_distance(const std::vector<Vec3>& from, const std::vector<Vec3>&
   const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
   double largest = 0;
 #pragma omp parallel for reduction(max : largest) schedule(static)
-  for (std::size_t p = 0; p < from.size(); ++p) {
-    const double query[3] = {from[p].x, from[p].y, from[p].z};
+  for (const Vec3& p : from) {
+    const double query[3] = {p.x, p.y, p.z};
     std::uint32_t index = 0;
     double squared = 0;
     tree.knnSearch(query, 1, &index, &squared);

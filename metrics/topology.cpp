@@ -5,7 +5,7 @@
 #include <span>
 #include <tuple>
 
-#include "metrics/reduce.hpp"
+#include "metrics/hanging_vertices.hpp"
 
 namespace cbc3d::metrics {
 namespace {
@@ -172,7 +172,8 @@ Topology topology(const MeshView& view, const std::vector<Facet>& facets, const 
     result.per_label[l] = check_surface(surface, static_cast<std::uint32_t>(l));
   }
   CellSets sets(view.cell_count());
-  result.conforming = check_runs(view, facets, sets);
+  result.hanging_vertices = count_hanging_vertices(view, surface);
+  result.conforming = check_runs(view, facets, sets) && result.hanging_vertices == 0;
   for (std::size_t c = 0; c < view.cell_count(); ++c) {
     const auto cell = static_cast<std::uint32_t>(c);
     result.per_label[view.label_index(c)].components += sets.root(cell) == cell ? 1 : 0;
@@ -194,6 +195,7 @@ nlohmann::json to_json(const Topology& topology, const MeshView& view) {
                          {"components", one.components}});
   }
   return {{"conforming", topology.conforming},
+          {"hanging_vertices", topology.hanging_vertices},
           {"non_manifold_edges", total.non_manifold_edges},
           {"non_manifold_vertices", total.non_manifold_vertices},
           {"components", total.components},

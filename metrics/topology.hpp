@@ -17,16 +17,17 @@ struct LabelTopology {
 };
 
 struct Topology {
-  /// Every facet belongs to one cell, or to two lying on its two sides; a quad meets quads only. Vertices
-  /// hanging on a neighbour's edge or facet are not searched for.
+  /// Every facet belongs to one cell, or to two lying on its two sides; a quad meets quads only; no vertex
+  /// hangs.
   bool conforming = true;
+  std::int64_t hanging_vertices = 0;     ///< see count_hanging_vertices
   std::vector<LabelTopology> per_label;  ///< by index into MeshView::labels()
 };
 
 Topology topology(const MeshView& view, const std::vector<Facet>& facets, const Surface& surface);
 
-/// Keys: conforming, non_manifold_edges, non_manifold_vertices, components (each the sum over the labels),
-/// per_label with label and the same three for every label of the mesh.
+/// Keys: conforming, hanging_vertices, non_manifold_edges, non_manifold_vertices, components (each the sum
+/// over the labels), per_label with label and the same three for every label of the mesh.
 nlohmann::json to_json(const Topology& topology, const MeshView& view);
 
 }  // namespace cbc3d::metrics

@@ -22,9 +22,10 @@ inline LabelImage empty_image(const Index3& size, const Vec3& spacing_mm, std::v
 }
 
 inline void fill_box(LabelImage& image, const Index3& low, const Index3& high, MaterialId material) {
-  for (int k = low[2]; k <= high[2]; ++k)
+  for (int k = low[2]; k <= high[2]; ++k) {
     for (int j = low[1]; j <= high[1]; ++j)
       for (int i = low[0]; i <= high[0]; ++i) image.voxels[image.frame.offset(i, j, k)] = material;
+  }
 }
 
 /// Two boxes of labels 1 and 7, face to face, in an anisotropic image.
@@ -40,11 +41,14 @@ inline Mesh kuhn_mesh(const LabelImage& image) {
   const ImageFrame& frame = image.frame;
   const Index3 n{frame.size[0] + 1, frame.size[1] + 1, frame.size[2] + 1};
   Mesh mesh;
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
+  for (int k = 0; k < n[2]; ++k) {
+    for (int j = 0; j < n[1]; ++j) {
+      for (int i = 0; i < n[0]; ++i) {
         mesh.points.push_back(
             {(i - 0.5) * frame.spacing_mm.x, (j - 0.5) * frame.spacing_mm.y, (k - 0.5) * frame.spacing_mm.z});
+      }
+    }
+  }
   for (std::size_t v = 0; v < image.voxels.size(); ++v) {
     if (image.voxels[v] == kBackground) continue;
     std::array<int, 3> axes{0, 1, 2};

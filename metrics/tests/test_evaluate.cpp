@@ -19,7 +19,8 @@ void expect_near(const json& a, const json& b, double tolerance, const std::stri
   } else if (a.is_structured()) {
     ASSERT_EQ(a.size(), b.size()) << where;
     for (const auto& [key, value] : a.items())
-      expect_near(value, a.is_object() ? b.at(key) : b.at(std::stoul(key)), tolerance, where + "/" + key);
+      expect_near(value, a.is_object() ? b.at(key) : b.at(std::stoul(key)), tolerance,
+                  std::string(where).append("/").append(key));
   } else {
     EXPECT_EQ(a, b) << where;
   }
@@ -100,11 +101,14 @@ TEST(Evaluate, BrokenMeshesAreRefused) {
 LabelImage bumpy_image() {
   LabelImage image = test::empty_image({14, 12, 11}, {.8, 1.1, 1.7}, {0, 2, 5});
   std::mt19937 random(11);
-  for (int k = 1; k < 10; ++k)
-    for (int j = 1; j < 11; ++j)
-      for (int i = 1; i < 13; ++i)
+  for (int k = 1; k < 10; ++k) {
+    for (int j = 1; j < 11; ++j) {
+      for (int i = 1; i < 13; ++i) {
         if (random() % 9 != 0)
           image.voxels[image.frame.offset(i, j, k)] = static_cast<MaterialId>(i < 7 ? 1 : 2);
+      }
+    }
+  }
   return image;
 }
 

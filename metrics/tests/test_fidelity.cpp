@@ -48,11 +48,12 @@ TEST(PointSetDistance, AgreesWithBruteForce) {
 double sampled_distance(const Triangle& t, const Vec3& p) {
   double nearest = std::numeric_limits<double>::infinity();
   constexpr int kSteps = 200;
-  for (int u = 0; u <= kSteps; ++u)
+  for (int u = 0; u <= kSteps; ++u) {
     for (int v = 0; u + v <= kSteps; ++v) {
       const double s = u / double{kSteps}, r = v / double{kSteps};
       nearest = std::min(nearest, (t.a + s * (t.b - t.a) + r * (t.c - t.a) - p).norm());
     }
+  }
   return nearest;
 }
 
@@ -106,9 +107,10 @@ TEST(Rasterise, AgreesWithBruteForceOnRandomTets) {
     const Index3 at = image.frame.index_of(v);
     MaterialId expected = kUncovered;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      if (brute_inside(mesh.tets.nodes[t], mesh.points, image.frame.local_centre(at[0], at[1], at[2])))
+      if (brute_inside(mesh.tets.nodes[t], mesh.points, image.frame.local_centre(at[0], at[1], at[2]))) {
         for (MaterialId m = 1; m < 4; ++m)
           if (image.labels[m] == mesh.tets.labels[t]) expected = std::min(expected, m);
+      }
     }
     ASSERT_EQ(found[v], expected) << v;
     covered += expected != kUncovered ? 1 : 0;

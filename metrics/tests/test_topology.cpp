@@ -115,5 +115,25 @@ TEST(Topology, CrossedQuadsDoNotMatch) {
   EXPECT_EQ(found["components"], 2);
 }
 
+TEST(Topology, HangingVerticesAreFound) {
+  // One tet above, two below that halve its base at the middle of an edge.
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, 0}};
+  add_tet(mesh, {0, 1, 2, 3});
+  add_tet(mesh, {0, 1, 5, 4});
+  add_tet(mesh, {0, 5, 2, 4});
+  const auto found = topology_of(mesh);
+  EXPECT_EQ(found["hanging_vertices"], 1);
+  EXPECT_EQ(found["conforming"], false);
+}
+
+TEST(Topology, CoincidentVerticesHang) {
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  add_tet(mesh, {0, 1, 2, 3});
+  add_tet(mesh, {4, 5, 6, 7});
+  EXPECT_EQ(topology_of(mesh)["hanging_vertices"], 6);
+}
+
 }  // namespace
 }  // namespace cbc3d::metrics

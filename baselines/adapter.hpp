@@ -1,0 +1,61 @@
+// What the bench knows of a mesher: its parameters, whether it is built, and the command that runs it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cbc3d::baselines {
+
+/// One run of a mesher: files, threads and the parameters that differ from their defaults.
+struct MeshJob {
+  std::filesystem::path image;                    ///< label image to read
+  std::filesystem::path mesh;                     ///< mesh file to write
+  std::filesystem::path report;                   ///< JSON report to write
+  int threads = 1;                                ///< threads of the whole run, at least 1
+  std::map<std::string, std::string> parameters;  ///< by ParameterSpec::key; absent ones take their default
+};
+
+/// A parameter of a mesher, given on its command line as `--key value`.
+struct ParameterSpec {
+  std::string key;  ///< long option without its dashes
+  std::string
+      default_value;  ///< as text; "preset" where the mesher's preset decides, "off" where it is not applied
+  std::string unit;   ///< "mm", "deg", ...; "" for a bare number, "true|false" for a switch
+  std::string description;  ///< one line
+};
+
+/// Whether a mesher can run here; `reason` says why not and how to get it.
+struct Availability {
+  bool available = false;
+  std::string reason;  ///< empty when available
+};
+
+/// A mesher as the bench sees it.
+struct Adapter {
+  std::string name;
+  std::string description;
+  std::string licence;         ///< SPDX expression
+  bool deterministic = true;   ///< same input, same bytes
+  bool multithreaded = false;  ///< the meshing itself gains from more threads
+  std::vector<ParameterSpec> parameters;
+  std::function<Availability(const std::filesystem::path& bin_dir)> availability;
+  /// The argument vector of a job. Throws InputError for a parameter the mesher does not have.
+  std::function<std::vector<std::string>(const std::filesystem::path& bin_dir, const MeshJob&)> command;
+};
+
+/// Available when `executable` is a file in `bin_dir`; otherwise the reason is `remedy`.
+Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,
+                                     const std::string& remedy);
+
+/// Throws InputError, naming the known keys, when `job` has a parameter that `known` lacks.
+void require_known_parameters(const std::string& mesher, const std::vector<ParameterSpec>& known,
+                              const MeshJob& job);
+
+/// The argument vector of an executable that speaks this room's protocol (see driver.hpp).
+std::vector<std::string> protocol_command(const std::filesystem::path& executable, const std::string& mesher,
+                                          const std::vector<ParameterSpec>& known, const MeshJob& job);
+
+}  // namespace cbc3d::baselines

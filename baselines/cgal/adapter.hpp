@@ -1,0 +1,11 @@
+// CGAL Mesh_3, sequential and parallel.
+#pragma once
+
+#include "baselines/adapter.hpp"
+
+namespace cbc3d::baselines {
+
+Adapter cgal_adapter();
+Adapter cgal_parallel_adapter();
+
+}  // namespace cbc3d::baselines

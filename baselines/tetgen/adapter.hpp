@@ -1,0 +1,10 @@
+// TetGen behind a surface net of the label image.
+#pragma once
+
+#include "baselines/adapter.hpp"
+
+namespace cbc3d::baselines {
+
+Adapter tetgen_adapter();
+
+}  // namespace cbc3d::baselines

@@ -1,0 +1,34 @@
+// One case of the benchmark: an image and what the meshers are to do with it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/core/vec3.hpp"
+
+namespace cbc3d::cases {
+
+/// A generated image: which generator (see phantoms/registry.hpp) and its arguments.
+struct Phantom {
+  std::string name;      ///< of the generator
+  Index3 size{0, 0, 0};  ///< voxels along each axis
+  Vec3 spacing_mm{1, 1, 1};
+  std::uint64_t seed = 0;
+};
+
+struct Case {
+  std::string name, title;
+  std::vector<std::string> suites;
+  std::optional<std::string> image_file;  ///< name of the file in a data folder; absent for a phantom
+  std::string image_sha256;               ///< of that file, lower-case hexadecimal
+  std::string image_source;               ///< where to get it, and its licence
+  std::optional<Phantom> phantom;         ///< absent for a file
+  std::map<std::string, std::map<std::string, std::string>> parameters;  ///< mesher name -> option -> value
+  nlohmann::json paper = nlohmann::json::object();  ///< the paper's figures for this image, where it has any
+};
+
+}  // namespace cbc3d::cases

@@ -1,0 +1,188 @@
+#include "cases/manifest.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <initializer_list>
+#include <set>
+#include <string_view>
+
+#include "cases/phantoms/registry.hpp"
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// A JSON object with the words to complain about it.
+struct Section {
+  const json& object;
+  const fs::path& file;
+  std::string prefix;  // of its keys in messages, "image." for one
+
+  [[noreturn]] void fail(std::string_view key, std::string_view finding) const {
+    throw InputError("'" + file.string() + "': \"" + prefix + std::string(key) + "\" " +
+                     std::string(finding) + "; see cases/README.md");
+  }
+  void require_known_keys(std::initializer_list<std::string_view> known) const {
+    for (const auto& [key, value] : object.items()) {
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        fail(key, "is not a key of a manifest");
+      }
+    }
+  }
+  [[nodiscard]] const json& at(std::string_view key) const {
+    const auto found = object.find(key);
+    if (found == object.end()) {
+      fail(key, "is missing");
+    }
+    return *found;
+  }
+  [[nodiscard]] std::string text(std::string_view key) const {
+    const json& value = at(key);
+    if (!value.is_string() || value.get_ref<const std::string&>().empty()) {
+      fail(key, "is " + value.dump() + ", not a text");
+    }
+    return value.get<std::string>();
+  }
+  [[nodiscard]] Section section(std::string_view key) const {
+    const json& value = at(key);
+    if (!value.is_object()) {
+      fail(key, "is " + value.dump() + ", not an object");
+    }
+    return {value, file, prefix + std::string(key) + "."};
+  }
+};
+
+template <class Number>
+std::array<Number, 3> three_numbers(const Section& section, std::string_view key) {
+  const json& value = section.at(key);
+  std::array<Number, 3> result{};
+  bool good = value.is_array() && value.size() == 3;
+  for (std::size_t axis = 0; good && axis < 3; ++axis) {
+    const json& number = value[axis];
+    good = std::is_integral_v<Number> ? number.is_number_integer() : number.is_number();
+    good = good && number.get<double>() > 0 && number.get<double>() < 1e6;
+    result[axis] = good ? number.get<Number>() : Number{};
+  }
+  if (!good) {
+    section.fail(key, "is " + value.dump() + ", not three positive numbers");
+  }
+  return result;
+}
+
+Phantom read_phantom(const Section& section) {
+  section.require_known_keys({"name", "size", "spacing_mm", "seed"});
+  Phantom phantom;
+  phantom.name = section.text("name");
+  if (find_phantom(phantom.name) == nullptr) {
+    section.fail("name", "is \"" + phantom.name + "\", not one of " + phantom_names());
+  }
+  phantom.size = three_numbers<int>(section, "size");
+  const auto spacing = three_numbers<double>(section, "spacing_mm");
+  phantom.spacing_mm = {spacing[0], spacing[1], spacing[2]};
+  const json& seed = section.at("seed");
+  if (!seed.is_number_unsigned()) {
+    section.fail("seed", "is " + seed.dump() + ", not a whole number from 0 on");
+  }
+  phantom.seed = seed.get<std::uint64_t>();
+  return phantom;
+}
+
+void read_image(const Section& image, Case& result) {
+  if (image.object.contains("phantom")) {
+    image.require_known_keys({"phantom"});
+    result.phantom = read_phantom(image.section("phantom"));
+    return;
+  }
+  image.require_known_keys({"file", "sha256", "source"});
+  result.image_file = image.text("file");
+  if (fs::path(*result.image_file).is_absolute()) {
+    image.fail("file", "is an absolute path, not a name within a data folder");
+  }
+  result.image_sha256 = image.text("sha256");
+  const bool hexadecimal = result.image_sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (result.image_sha256.size() != 64 || !hexadecimal) {
+    image.fail("sha256", "is not 64 lower-case hexadecimal digits");
+  }
+  result.image_source = image.text("source");
+}
+
+void read_parameters(const Section& parameters, Case& result) {
+  for (const auto& [mesher, unused] : parameters.object.items()) {
+    const Section options = parameters.section(mesher);
+    auto& into = result.parameters[mesher];
+    for (const auto& [key, value] : options.object.items()) {
+      if (!value.is_string() && !value.is_number()) {
+        options.fail(key, "is " + value.dump() + ", neither a text nor a number");
+      }
+      into[key] = value.is_string() ? value.get<std::string>() : value.dump();
+    }
+  }
+}
+
+json parse_file(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) {
+    throw InputError("cannot read '" + file.string() + "'; check its permissions");
+  }
+  json parsed = json::parse(in, nullptr, false);
+  if (!parsed.is_object()) {
+    throw InputError("'" + file.string() + "' is not a JSON object; see cases/README.md");
+  }
+  return parsed;
+}
+
+Case read_case(const fs::path& file) {
+  const json parsed = parse_file(file);
+  const Section top{parsed, file, ""};
+  top.require_known_keys({"name", "title", "suites", "image", "parameters", "paper"});
+  Case result;
+  result.name = top.text("name");
+  result.title = top.text("title");
+  const json& suites = top.at("suites");
+  if (!suites.is_array() || suites.empty() ||
+      !std::all_of(suites.begin(), suites.end(), [](const json& suite) { return suite.is_string(); })) {
+    top.fail("suites", "is " + suites.dump() + ", not a list of names");
+  }
+  result.suites = suites.get<std::vector<std::string>>();
+  read_image(top.section("image"), result);
+  if (parsed.contains("parameters")) {
+    read_parameters(top.section("parameters"), result);
+  }
+  if (parsed.contains("paper")) {
+    result.paper = top.section("paper").object;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Case> load_cases(const fs::path& manifest_dir) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(manifest_dir, error)) {
+    if (entry.path().extension() == ".json") {
+      files.push_back(entry.path());
+    }
+  }
+  if (error || files.empty()) {
+    throw InputError("'" + manifest_dir.string() + "' " +
+                     (error ? "cannot be read: " + error.message() : "holds no case manifest (*.json)") +
+                     "; name the folder of the case manifests");
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<Case> cases;
+  std::set<std::string> names;
+  for (const fs::path& file : files) {
+    cases.push_back(read_case(file));
+    if (!names.insert(cases.back().name).second) {
+      throw InputError("'" + file.string() + "': \"name\" is \"" + cases.back().name +
+                       "\", which another manifest has too; choose another");
+    }
+  }
+  return cases;
+}
+
+}  // namespace cbc3d::cases

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cases/manifest.hpp"
+#include "cases/tests/folder.hpp"
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::cases {
+namespace {
+
+using nlohmann::json;
+
+json good_manifest() {
+  return {{"name", "one"},
+          {"title", "One"},
+          {"suites", {"demo"}},
+          {"image", {{"file", "one.nrrd"}, {"sha256", std::string(64, 'a')}, {"source", "somewhere (MIT)"}}},
+          {"parameters", {{"cgal", {{"cell-size", 2.5}, {"mode", "x"}}}}},
+          {"paper", {{"note", "none"}}}};
+}
+
+json phantom_manifest() {
+  json manifest = good_manifest();
+  manifest["image"] = {
+      {"phantom", {{"name", "organs"}, {"size", {16, 17, 18}}, {"spacing_mm", {1, 1.5, 2}}, {"seed", 3}}}};
+  return manifest;
+}
+
+std::string error_of(const json& manifest) {
+  const test::Folder folder("manifest");
+  folder.write("bad.json", manifest.is_string() ? manifest.get<std::string>() : manifest.dump());
+  try {
+    load_cases(folder.path());
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("bad.json"), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Manifest, EveryKeyIsRead) {
+  const test::Folder folder("manifest");
+  json second = phantom_manifest();
+  second["name"] = "two";
+  folder.write("b.json", good_manifest().dump());
+  folder.write("a.json", second.dump());
+  folder.write("notes.txt", "no manifest");
+  const auto cases = load_cases(folder.path());
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[0].name, "two");  // sorted by file name
+  EXPECT_EQ(cases[1].title, "One");
+  EXPECT_EQ(cases[1].suites, std::vector<std::string>{"demo"});
+  EXPECT_EQ(cases[1].image_file, "one.nrrd");
+  EXPECT_EQ(cases[1].image_sha256, std::string(64, 'a'));
+  EXPECT_EQ(cases[1].image_source, "somewhere (MIT)");
+  EXPECT_FALSE(cases[1].phantom);
+  EXPECT_EQ(cases[1].parameters.at("cgal").at("cell-size"), "2.5");
+  EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
+  EXPECT_EQ(cases[1].paper.at("note"), "none");
+  ASSERT_TRUE(cases[0].phantom);
+  EXPECT_FALSE(cases[0].image_file);
+  EXPECT_EQ(cases[0].phantom->name, "organs");
+  EXPECT_EQ(cases[0].phantom->size, (Index3{16, 17, 18}));
+  EXPECT_EQ(cases[0].phantom->spacing_mm, (Vec3{1, 1.5, 2}));
+  EXPECT_EQ(cases[0].phantom->seed, 3U);
+}
+
+struct BadKey {
+  const char* pointer;  // of the value that is replaced
+  json value;
+  const char* named;  // what the message must name
+};
+
+class BadManifest : public testing::TestWithParam<BadKey> {};
+
+TEST_P(BadManifest, IsRefusedByKey) {
+  json manifest = std::string(GetParam().pointer).find("phantom") == std::string::npos ? good_manifest()
+                                                                                       : phantom_manifest();
+  ASSERT_EQ(error_of(manifest), "");
+  manifest[json::json_pointer(GetParam().pointer)] = GetParam().value;
+  EXPECT_NE(error_of(manifest).find(GetParam().named), std::string::npos) << error_of(manifest);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Keys, BadManifest,
+    testing::Values(BadKey{"/name", 7, "\"name\" is 7"}, BadKey{"/title", "", "\"title\""},
+                    BadKey{"/suites", "demo", "\"suites\""}, BadKey{"/suites", json::array(), "\"suites\""},
+                    BadKey{"/image", "one.nrrd", "\"image\""}, BadKey{"/colour", "red", "\"colour\""},
+                    BadKey{"/image/sha", "aa", "\"image.sha\""},
+                    BadKey{"/image/sha256", "ABC", "\"image.sha256\""},
+                    BadKey{"/image/file", "/etc/one.nrrd", "\"image.file\""},
+                    BadKey{"/parameters/cgal", 3, "\"parameters.cgal\""},
+                    BadKey{"/parameters/cgal/cell-size", {1, 2}, "\"parameters.cgal.cell-size\""},
+                    BadKey{"/paper", {1, 2}, "\"paper\""},
+                    BadKey{"/image/phantom/name", "ghost", "organs, shells"},
+                    BadKey{"/image/phantom/size", {16, 17}, "\"image.phantom.size\""},
+                    BadKey{"/image/phantom/size", {16, 17, 1.5}, "\"image.phantom.size\""},
+                    BadKey{"/image/phantom/spacing_mm", {1, 1, 0}, "\"image.phantom.spacing_mm\""},
+                    BadKey{"/image/phantom/seed", -1, "\"image.phantom.seed\""}));
+
+TEST(Manifest, MissingKeysAreNamed) {
+  for (const char* key : {"name", "title", "suites", "image"}) {
+    json manifest = good_manifest();
+    manifest.erase(key);
+    EXPECT_NE(error_of(manifest).find("\"" + std::string(key) + "\" is missing"), std::string::npos);
+  }
+  EXPECT_NE(error_of("{ no json").find("not a JSON object"), std::string::npos);
+}
+
+TEST(Manifest, FolderAndNamesAreChecked) {
+  const test::Folder folder("manifest");
+  EXPECT_THROW(load_cases(folder.path() / "absent"), InputError);
+  EXPECT_THROW(load_cases(folder.path()), InputError);
+  folder.write("a.json", good_manifest().dump());
+  EXPECT_EQ(load_cases(folder.path()).size(), 1U);
+  folder.write("b.json", good_manifest().dump());
+  EXPECT_THROW(load_cases(folder.path()), InputError);
+}
+
+TEST(Manifest, OursAreGood) {
+  const auto cases = load_cases(CBC3D_MANIFESTS);
+  const auto in_suite = [&](const std::string& suite) {
+    return std::count_if(cases.begin(), cases.end(), [&](const Case& one) {
+      return std::find(one.suites.begin(), one.suites.end(), suite) != one.suites.end();
+    });
+  };
+  EXPECT_GE(in_suite("demo"), 2);
+  EXPECT_GE(in_suite("real"), 9);
+  for (const Case& one : cases) {
+    EXPECT_EQ(one.parameters.at("cgal").at("facet-angle"), "30") << one.name;
+    EXPECT_EQ(one.image_file.has_value(), !one.phantom.has_value()) << one.name;
+  }
+}
+
+}  // namespace
+}  // namespace cbc3d::cases

@@ -1,0 +1,72 @@
+// cbc3d-bench evaluate: any mesh against any segmentation.
+#include <iostream>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/core/image_io.hpp"
+#include "mesher/core/mesh_io.hpp"
+#include "mesher/core/progress.hpp"
+#include "mesher/core/runtime.hpp"
+#include "metrics/evaluate.hpp"
+#include "reports/commands.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+struct EvaluateCommandOptions {
+  std::string mesh, image, json;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// The figures of a section that are single numbers or flags, a line each.
+void print_section(const nlohmann::json& evaluation, const std::string& section) {
+  std::cout << section << '\n';
+  for (const auto& [key, value] : evaluation.at(section).items()) {
+    if (!value.is_structured() ||
+        (value.is_array() && value.size() <= 8 && !value.empty() && !value[0].is_structured())) {
+      std::cout << "  " << key << ": " << value.dump() << '\n';
+    }
+  }
+}
+
+int evaluate(const EvaluateCommandOptions& options) {
+  if (!options.json.empty()) {
+    require_writable(options.json);
+  }
+  set_thread_count(options.threads);
+  Progress progress(options.quiet);
+  progress.step("reading", 0);
+  const Mesh mesh = read_mesh(options.mesh);
+  const LabelImage image = read_label_image(options.image);
+  const nlohmann::json evaluation = metrics::evaluate(mesh, image, {}, progress);
+  progress.done();
+  if (!options.json.empty()) {
+    write_text_file(options.json, evaluation.dump(2) + "\n");
+  }
+  if (!options.quiet) {
+    for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
+      print_section(evaluation, section);
+    }
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command add_evaluate_command(CLI::App& app) {
+  auto options = std::make_shared<EvaluateCommandOptions>();
+  CLI::App* parser = app.add_subcommand(
+      "evaluate", "Judges a mesh against a segmentation: counts, quality, fidelity and topology");
+  parser->add_option("MESH", options->mesh, "mesh with an integer cell array `label`: .vtu, .vtk or .msh")
+      ->required();
+  parser->add_option("IMAGE", options->image, "label image: NIfTI, NRRD, MHA, INRIMAGE, ...")->required();
+  parser->add_option("--json", options->json, "write all figures to this file");
+  parser->add_option("--threads", options->threads, "threads; 0: all cores")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  parser->add_flag("--quiet", options->quiet, "no progress and no figures on the screen");
+  return {parser, [options] { return evaluate(*options); }};
+}
+
+}  // namespace cbc3d::reports

@@ -1,0 +1,22 @@
+// The commands of cbc3d-bench.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <vector>
+
+namespace cbc3d::reports {
+
+/// A command: its parser, and what it does once its options are parsed. `run` returns the exit code.
+struct Command {
+  CLI::App* parser;
+  std::function<int()> run;
+};
+
+Command add_list_command(CLI::App& app);
+Command add_run_command(CLI::App& app);
+Command add_evaluate_command(CLI::App& app);
+Command add_tables_command(CLI::App& app);
+Command add_phantom_command(CLI::App& app);
+
+}  // namespace cbc3d::reports

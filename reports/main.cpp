@@ -1,0 +1,36 @@
+// cbc3d-bench: meshers on cases, measured alike.
+#include <iostream>
+
+#include "mesher/core/error.hpp"
+#include "reports/commands.hpp"
+
+int main(int argc, char** argv) {
+  using namespace cbc3d;
+  CLI::App app{
+      "Runs meshers on segmented images, judges the meshes and writes comparison tables.\n"
+      "Exit codes: 0 success, 2 bad usage or input, 3 a job failed."};
+  app.require_subcommand(1);
+  const std::vector<reports::Command> commands{
+      reports::add_list_command(app), reports::add_run_command(app), reports::add_evaluate_command(app),
+      reports::add_tables_command(app), reports::add_phantom_command(app)};
+  try {
+    app.parse(argc, argv);
+    for (const reports::Command& command : commands) {
+      if (command.parser->parsed()) {
+        return command.run();
+      }
+    }
+    return kExitBadInput;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitSuccess : kExitBadInput;
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+    return kExitBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out of memory\n";
+    return kExitJobFailed;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return kExitJobFailed;
+  }
+}

@@ -1,0 +1,52 @@
+#include "reports/provenance.hpp"
+
+#include <unistd.h>
+
+#include <ctime>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "reports/build_info.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(':');
+    if (line.rfind("model name", 0) == 0 && colon + 2 < line.size()) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm broken_down{};
+  ::gmtime_r(&now, &broken_down);
+  char text[32] = {};
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &broken_down);
+  return text;
+}
+
+}  // namespace
+
+Json provenance() {
+  Json result;
+  result["cbc3d_version"] = kVersion;
+  result["git_commit"] = kGitCommit;
+  result["compiler"] = kCompiler;
+  result["build_type"] = kBuildType;
+  result["libraries"] = {{"itk", kItkVersion}, {"vtk", kVtkVersion}, {"cgal", kCgalVersion}};
+  result["cpu"] = cpu_model();
+  result["cores"] = std::thread::hardware_concurrency();
+  result["memory_bytes"] = static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                           static_cast<std::int64_t>(::sysconf(_SC_PAGESIZE));
+  result["utc"] = utc_now();
+  return result;
+}
+
+}  // namespace cbc3d::reports

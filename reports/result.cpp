@@ -1,0 +1,121 @@
+#include "reports/result.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+Json nulls(const std::vector<const char*>& keys) {
+  Json object = Json::object();
+  for (const char* key : keys) {
+    object[key] = nullptr;
+  }
+  return object;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+Json empty_result() {
+  Json result = nulls({"case", "mesher", "threads", "repeat"});
+  result["parameters"] = Json::object();
+  result["status"] = nullptr;
+  result["reason"] = "";
+  result["mesh_file"] = nullptr;
+  result["counts"] = nulls({"vertices", "tets", "pyramids", "wedges", "hexes"});
+  result["quality"] = nulls(
+      {"min_dihedral_deg", "max_dihedral_deg", "dihedral_histogram_5deg", "min_scaled_jacobian", "inverted"});
+  result["fidelity"] = nulls({"hausdorff_mm", "image_to_mesh_mm", "mesh_to_image_mm", "surface_hausdorff_mm",
+                              "mean_distance_mm", "hd95_mm", "dice_min", "missing_labels", "per_label"});
+  result["topology"] =
+      nulls({"conforming", "non_manifold_edges", "non_manifold_vertices", "components", "per_label"});
+  result["time_s"] = nulls({"mesh", "cpu", "stages"});
+  result["peak_rss_bytes"] = nullptr;
+  result["provenance"] = Json::object();
+  return result;
+}
+
+void merge_evaluation(Json& result, const nlohmann::json& evaluation) {
+  for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
+    if (!evaluation.contains(section) || !evaluation[section].is_object()) {
+      continue;
+    }
+    for (const auto& [key, value] : evaluation[section].items()) {
+      result[section][key] = value;
+    }
+  }
+}
+
+void append_result(const std::filesystem::path& file, const Json& result) {
+  const std::string line = result.dump() + "\n";
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor < 0) {
+    throw JobError("cannot write '" + file.string() + "': " + std::strerror(errno));
+  }
+  const ssize_t written = ::write(descriptor, line.data(), line.size());
+  const int write_error = errno;
+  const bool synced = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  if (written != static_cast<ssize_t>(line.size()) || !synced) {
+    throw JobError("cannot write '" + file.string() +
+                   "': " + (written < 0 ? std::strerror(write_error) : "the disk is full or failing"));
+  }
+}
+
+std::vector<Json> read_results(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  std::vector<Json> results;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string line = text.substr(begin, end - begin);
+    if (line.empty()) {
+      continue;
+    }
+    Json result = Json::parse(line, nullptr, false);
+    if (!result.is_object()) {
+      throw InputError("'" + file.string() + "': line " + std::to_string(results.size() + 1) +
+                       " is no JSON object; remove it");
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+void drop_torn_line(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  if (!text.empty() && text.back() != '\n') {
+    std::filesystem::resize_file(file, text.rfind('\n') + 1);  // npos + 1 is 0: no whole line
+  }
+}
+
+std::string result_id(const Json& result) {
+  return result.value("case", "") + "-" + result.value("mesher", "") + "-t" +
+         std::to_string(result.value("threads", 0)) + "-r" + std::to_string(result.value("repeat", 0));
+}
+
+Json figure(const Json& result, const std::vector<std::string>& path) {
+  const Json* at = &result;
+  for (const std::string& key : path) {
+    if (!at->is_object() || !at->contains(key)) {
+      return nullptr;
+    }
+    at = &(*at)[key];
+  }
+  return *at;
+}
+
+}  // namespace cbc3d::reports

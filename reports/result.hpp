@@ -1,0 +1,41 @@
+// The lines of results.jsonl: one JSON object for every job.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace cbc3d::reports {
+
+using Json = nlohmann::ordered_json;
+
+/// What became of a job, in the order in which summaries list it.
+inline constexpr const char* kStatuses[] = {"ok",      "failed",     "crashed", "timeout", "out_of_memory",
+                                            "skipped", "unavailable"};
+
+/// A result line with every key there and every figure null.
+Json empty_result();
+
+/// Puts the keys counts, quality, fidelity and topology of an evaluation into a result line; keys that the
+/// evaluation lacks stay null.
+void merge_evaluation(Json& result, const nlohmann::json& evaluation);
+
+/// Appends one line with a single write and waits until it is on the disk, so that a reader, or a run that
+/// was cut off, never has half a line of ours between two whole ones. Throws JobError.
+void append_result(const std::filesystem::path& file, const Json& result);
+
+/// The lines of a file; a last line that was cut off is left out. No file: no lines. Throws InputError for a
+/// line that is no JSON object.
+std::vector<Json> read_results(const std::filesystem::path& file);
+
+/// Removes a last line that was cut off (a machine that went down), so that lines can be appended again.
+void drop_torn_line(const std::filesystem::path& file);
+
+/// What identifies a job among the lines of one file: "CASE-MESHER-tTHREADS-rREPEAT".
+std::string result_id(const Json& result);
+
+/// The figure at a path such as {"fidelity", "hausdorff_mm"}; null where any of it is absent.
+Json figure(const Json& result, const std::vector<std::string>& path);
+
+}  // namespace cbc3d::reports

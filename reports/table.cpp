@@ -1,0 +1,77 @@
+#include "reports/table.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace cbc3d::reports {
+
+std::string format_number(double value, int decimals) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
+  std::string text = buffer;
+  const std::size_t first_digit = text.find_first_of("0123456789");
+  std::size_t at = std::min(text.find('.'), text.size());
+  while (first_digit != std::string::npos && at > first_digit + 3) {
+    at -= 3;
+    text.insert(at, ",");
+  }
+  return text;
+}
+
+std::string cell_text(const Cell& cell, int decimals) {
+  std::string text = cell.value ? format_number(*cell.value, decimals) : "-";
+  const std::string lowest = format_number(cell.lowest, decimals);
+  const std::string highest = format_number(cell.highest, decimals);
+  if (cell.value && cell.runs > 1 && lowest != highest) {
+    text += " [" + lowest + "-" + highest + "]";
+  }
+  if (cell.paper) {
+    text += " (paper: " + format_number(*cell.paper, decimals) + ")";
+  }
+  return text;
+}
+
+Footnotes::Footnotes(const Table& table) : table_(table) {
+  for (const Row& row : table.rows) {
+    for (std::size_t column = 0; column < row.cells.size(); ++column) {
+      if (!row.cells[column].reason.empty() && number(row, column) == 0) {
+        notes_.push_back(note_of(row, column));
+      }
+    }
+  }
+}
+
+std::string Footnotes::note_of(const Row& row, std::size_t column) const {
+  return row.case_name + ", " + table_.columns[column] + ": " + row.cells[column].reason;
+}
+
+std::size_t Footnotes::number(const Row& row, std::size_t column) const {
+  if (row.cells[column].reason.empty()) {
+    return 0;
+  }
+  const auto found = std::find(notes_.begin(), notes_.end(), note_of(row, column));
+  return found == notes_.end() ? 0 : static_cast<std::size_t>(found - notes_.begin()) + 1;
+}
+
+Json to_json(const Table& table) {
+  Json rows = Json::array();
+  for (const Row& row : table.rows) {
+    Json cells = Json::object();
+    for (std::size_t column = 0; column < row.cells.size(); ++column) {
+      const Cell& cell = row.cells[column];
+      Json entry;
+      entry["value"] = cell.value ? Json(*cell.value) : Json();
+      entry["min"] = cell.value ? Json(cell.lowest) : Json();
+      entry["max"] = cell.value ? Json(cell.highest) : Json();
+      entry["runs"] = cell.runs;
+      entry["paper"] = cell.paper ? Json(*cell.paper) : Json();
+      entry["reason"] = cell.reason;
+      cells[table.columns[column]] = std::move(entry);
+    }
+    rows.push_back({{"case", row.case_name}, {"figure", row.figure}, {"cells", std::move(cells)}});
+  }
+  return {
+      {"name", table.name}, {"title", table.title}, {"columns", table.columns}, {"rows", std::move(rows)}};
+}
+
+}  // namespace cbc3d::reports

@@ -1,0 +1,66 @@
+// A table of results and its four written forms.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/result.hpp"
+
+namespace cbc3d::reports {
+
+/// One figure of one mesher on one case.
+struct Cell {
+  std::optional<double> value;  ///< median of the runs; none: "-"
+  double lowest = 0;            ///< of the runs
+  double highest = 0;           ///< of the runs
+  int runs = 0;                 ///< that gave the figure
+  std::optional<double> paper;  ///< the paper's figure for the same thing
+  std::string reason;           ///< why the figure, or some run of it, is not there
+};
+
+struct Row {
+  std::string case_name;
+  std::string figure;  ///< with its unit
+  int decimals = 0;
+  std::vector<Cell> cells;  ///< in the order of Table::columns
+};
+
+struct Table {
+  std::string name;   ///< file name without extension
+  std::string title;  ///< one line
+  std::vector<std::string> columns;
+  std::vector<Row> rows;
+};
+
+/// A number with that many decimals and commas between the thousands.
+std::string format_number(double value, int decimals);
+
+/// "1,234 [1,200-1,300] (paper: 1,100)"; "-" without a value. The range is there when the runs differ in what
+/// is shown.
+std::string cell_text(const Cell& cell, int decimals);
+
+/// The reasons of a table, each once, as "CASE, MESHER: REASON", numbered from 1 by their place.
+class Footnotes {
+ public:
+  explicit Footnotes(const Table& table);
+  /// Number of the note of a cell; 0: none.
+  [[nodiscard]] std::size_t number(const Row& row, std::size_t column) const;
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  [[nodiscard]] std::string note_of(const Row& row, std::size_t column) const;
+  const Table& table_;
+  std::vector<std::string> notes_;
+};
+
+/// A Markdown table, padded so that it also reads well as plain text, with the reasons beneath.
+std::string to_markdown(const Table& table);
+/// One line a row: raw numbers, and for each mesher a column with the paper's figures or reasons where there
+/// are any.
+std::string to_csv(const Table& table);
+/// A tabular environment in a table, with the reasons beneath.
+std::string to_latex(const Table& table);
+Json to_json(const Table& table);
+
+}  // namespace cbc3d::reports

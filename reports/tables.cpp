@@ -1,0 +1,275 @@
+#include "reports/tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+using Figure = std::function<std::optional<double>(const Json& result)>;
+
+/// A row of a table for every case.
+struct Measure {
+  std::string name;  ///< with its unit
+  int decimals;
+  std::string paper_key;  ///< of the case's paper figures; empty: the paper has none
+  Figure figure;
+};
+
+struct TablePlan {
+  std::string name;
+  std::string title;
+  std::vector<Measure> measures;
+};
+
+Figure at(std::vector<std::string> path, double factor = 1) {
+  return [path = std::move(path), factor](const Json& result) -> std::optional<double> {
+    const Json value = figure(result, path);
+    return value.is_number() ? std::optional(factor * value.get<double>()) : std::nullopt;
+  };
+}
+
+/// The largest volume error of a label, without its sign.
+std::optional<double> largest_volume_error(const Json& result) {
+  const Json labels = figure(result, {"fidelity", "per_label"});
+  std::optional<double> largest;
+  for (const Json& label : labels.is_array() ? labels : Json::array()) {
+    const Json error = figure(label, {"volume_error_percent"});
+    if (error.is_number()) {
+      largest = std::max(largest.value_or(0), std::abs(error.get<double>()));
+    }
+  }
+  return largest;
+}
+
+std::optional<double> missing_label_count(const Json& result) {
+  const Json missing = figure(result, {"fidelity", "missing_labels"});
+  return missing.is_array() ? std::optional(static_cast<double>(missing.size())) : std::nullopt;
+}
+
+std::vector<TablePlan> table_plans() {
+  constexpr double kMegabytesPerByte = 1e-6;
+  return {
+      {"element_count", "Element count", {{"tetrahedra", 0, "tets", at({"counts", "tets"})}}},
+      {"element_quality",
+       "Element quality",
+       {{"min dihedral angle (deg)", 2, "min_dihedral_deg", at({"quality", "min_dihedral_deg"})},
+        {"max dihedral angle (deg)", 2, "max_dihedral_deg", at({"quality", "max_dihedral_deg"})},
+        {"min scaled Jacobian", 4, "", at({"quality", "min_scaled_jacobian"})},
+        {"inverted elements", 0, "", at({"quality", "inverted"})}}},
+      {"fidelity",
+       "Fidelity (HD: the paper's Hausdorff distance of surface vertices and boundary voxels)",
+       {{"HD (mm)", 2, "hausdorff_mm", at({"fidelity", "hausdorff_mm"})},
+        {"surface Hausdorff distance (mm)", 2, "", at({"fidelity", "surface_hausdorff_mm"})},
+        {"95 % surface distance (mm)", 2, "", at({"fidelity", "hd95_mm"})},
+        {"largest volume error of a label (%)", 2, "", largest_volume_error},
+        {"lowest Dice of a label", 4, "", at({"fidelity", "dice_min"})},
+        {"labels missing", 0, "", missing_label_count}}},
+      {"time",
+       "Time and memory (meshing end to end, without reading and writing files)",
+       {{"time (s)", 2, "time_s", at({"time_s", "mesh"})},
+        {"CPU time (s)", 2, "", at({"time_s", "cpu"})},
+        {"threads", 0, "threads", at({"threads"})},
+        {"peak memory (MB)", 0, "", at({"peak_rss_bytes"}, kMegabytesPerByte)}}},
+      {"vertices",
+       "Vertices and elements of the mixed meshes beside the tetrahedral ones",
+       {{"vertices", 0, "vertices", at({"counts", "vertices"})},
+        {"tetrahedra", 0, "tets", at({"counts", "tets"})},
+        {"pyramids", 0, "pyramids", at({"counts", "pyramids"})},
+        {"wedges", 0, "wedges", at({"counts", "wedges"})},
+        {"hexahedra", 0, "hexes", at({"counts", "hexes"})}}},
+  };
+}
+
+bool has_mixed_mesh(const std::vector<Json>& results) {
+  const auto count = [](const Json& result, const char* kind) {
+    return at({"counts", kind})(result).value_or(0);
+  };
+  return std::any_of(results.begin(), results.end(), [&](const Json& result) {
+    return count(result, "pyramids") + count(result, "wedges") + count(result, "hexes") > 0;
+  });
+}
+
+std::string text_of(const Json& result, const char* key) {
+  return result.value(key, "");
+}
+
+/// Meshers by name, in the order of their first line; with "(N threads)" for those that ran with several
+/// counts.
+class Columns {
+ public:
+  explicit Columns(const std::vector<Json>& results) {
+    for (const Json& result : results) {
+      threads_[text_of(result, "mesher")].insert(result.value("threads", 1));
+    }
+    for (const Json& result : results) {
+      const std::string name = name_of(result);
+      if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
+        names_.push_back(name);
+      }
+    }
+  }
+  [[nodiscard]] std::string name_of(const Json& result) const {
+    const std::string mesher = text_of(result, "mesher");
+    const int threads = result.value("threads", 1);
+    return threads_.at(mesher).size() == 1
+               ? mesher
+               : mesher + " (" + std::to_string(threads) + (threads == 1 ? " thread)" : " threads)");
+  }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::map<std::string, std::set<int>> threads_;
+  std::vector<std::string> names_;
+};
+
+/// Status and reason of a line that is not ok.
+std::string failure_of(const Json& result) {
+  const std::string status = text_of(result, "status");
+  const std::string reason = text_of(result, "reason");
+  return reason.empty() ? status : status + ": " + reason;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+/// `runs`: the lines of one case and column.
+Cell cell_of(const std::vector<const Json*>& runs, const Measure& measure) {
+  Cell cell;
+  std::vector<double> values;
+  std::size_t failures = 0;
+  for (const Json* run : runs) {
+    if (text_of(*run, "status") != "ok") {
+      ++failures;
+      cell.reason = failure_of(*run);
+    } else if (const auto value = measure.figure(*run)) {
+      values.push_back(*value);
+    }
+  }
+  if (runs.empty()) {
+    cell.reason = "not run";
+  } else if (failures > 0 && failures < runs.size()) {
+    cell.reason = std::to_string(failures) + " of " + std::to_string(runs.size()) + " runs " + cell.reason;
+  }
+  if (!values.empty()) {
+    cell.value = median(values);
+    cell.lowest = *std::min_element(values.begin(), values.end());
+    cell.highest = *std::max_element(values.begin(), values.end());
+    cell.runs = static_cast<int>(values.size());
+  }
+  return cell;
+}
+
+/// The paper's Hausdorff distance after a deformation with the run's own pattern and iterations, as a case's
+/// manifest has it from the table on deformation.
+std::optional<double> paper_deformation_figure(const nlohmann::json& deformation, const Json& run) {
+  const Json pattern = figure(run, {"parameters", "connectivity"});
+  const Json iterations = figure(run, {"parameters", "iterations"});
+  const std::string expected = deformation.value("iterations", nlohmann::json()).dump();
+  if (!pattern.is_string() || !iterations.is_string() || iterations.get<std::string>() != expected) {
+    return std::nullopt;
+  }
+  const auto value = at({"patterns", pattern.get<std::string>(), "hausdorff_mm"});
+  return value(Json(deformation));
+}
+
+/// The paper's figure beside a run's: that under the mesher's name, or under its method's (cbc3d-paper and
+/// cbc3d are one, a mixed mesh is not), or for a distance that of the table on deformation.
+std::optional<double> paper_figure(const cases::Case& subject, const Json& run, const std::string& key) {
+  const std::string mesher = text_of(run, "mesher");
+  const std::string method = mesher == "cbc3d-mixed" ? mesher : mesher.substr(0, mesher.find('-'));
+  for (const std::string& name : {mesher, method}) {
+    if (const auto value = at({name, key})(Json(subject.paper))) {
+      return value;
+    }
+  }
+  const bool deformed = method == "cbc3d" && key == "hausdorff_mm" && subject.paper.contains("deformation");
+  return deformed ? paper_deformation_figure(subject.paper["deformation"], run) : std::nullopt;
+}
+
+/// `runs`: as for cell_of.
+std::optional<double> paper_figure(const std::vector<cases::Case>& cases,
+                                   const std::vector<const Json*>& runs, const std::string& key) {
+  if (runs.empty() || key.empty()) {
+    return std::nullopt;
+  }
+  const std::string name = text_of(*runs.front(), "case");
+  const auto found =
+      std::find_if(cases.begin(), cases.end(), [&](const cases::Case& c) { return c.name == name; });
+  return found == cases.end() ? std::nullopt : paper_figure(*found, *runs.front(), key);
+}
+
+std::vector<std::string> case_names(const std::vector<Json>& results) {
+  std::vector<std::string> names;
+  for (const Json& result : results) {
+    if (std::find(names.begin(), names.end(), text_of(result, "case")) == names.end()) {
+      names.push_back(text_of(result, "case"));
+    }
+  }
+  return names;
+}
+
+Table build_table(const TablePlan& plan, const std::vector<Json>& results,
+                  const std::vector<cases::Case>& cases) {
+  const Columns columns(results);
+  Table table{plan.name, plan.title, columns.names(), {}};
+  for (const std::string& case_name : case_names(results)) {
+    for (const Measure& measure : plan.measures) {
+      Row row{case_name, measure.name, measure.decimals, {}};
+      for (const std::string& column : table.columns) {
+        std::vector<const Json*> runs;
+        for (const Json& result : results) {
+          if (text_of(result, "case") == case_name && columns.name_of(result) == column) {
+            runs.push_back(&result);
+          }
+        }
+        row.cells.push_back(cell_of(runs, measure));
+        row.cells.back().paper = paper_figure(cases, runs, measure.paper_key);
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Table> build_tables(const std::vector<Json>& results, const std::vector<cases::Case>& cases) {
+  std::vector<Table> tables;
+  for (const TablePlan& plan : table_plans()) {
+    if (plan.name != "vertices" || has_mixed_mesh(results)) {
+      tables.push_back(build_table(plan, results, cases));
+    }
+  }
+  return tables;
+}
+
+void write_tables(const std::vector<Table>& tables, const std::filesystem::path& folder,
+                  const std::vector<std::string>& formats) {
+  static const std::map<std::string, std::function<std::string(const Table&)>> writers{
+      {"csv", to_csv}, {"md", to_markdown}, {"tex", to_latex}, {"json", [](const Table& table) {
+                                                                  return to_json(table).dump(2) + "\n";
+                                                                }}};
+  for (const std::string& format : formats) {
+    if (!writers.contains(format)) {
+      throw InputError("--format: '" + format + "' is unknown; give csv, json, md or tex");
+    }
+  }
+  std::filesystem::create_directories(folder);
+  for (const Table& table : tables) {
+    for (const std::string& format : formats) {
+      write_text_file(folder / (table.name + "." + format), writers.at(format)(table));
+    }
+  }
+}
+
+}  // namespace cbc3d::reports

@@ -1,0 +1,88 @@
+// A child that behaves as its first argument says: exit CODE, crash, sleep, allocate, spawn PIDFILE, say
+// TEXT, env NAME, mesh OUT REPORT.
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mesher/core/mesh_io.hpp"
+
+namespace {
+
+void sleep_long() {
+  std::this_thread::sleep_for(std::chrono::seconds(120));
+}
+
+/// Touches memory until it is stopped, 16 MiB at a time.
+int allocate() {
+  std::vector<std::vector<char>> blocks;
+  for (int n = 0; n < 256; ++n) {
+    blocks.emplace_back(std::size_t{16} << 20, 'x');
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return blocks.size() == 256 ? 0 : 1;
+}
+
+/// Leaves a grandchild sleeping and notes its id.
+int spawn(const std::string& file, bool stay) {
+  const pid_t process = ::fork();
+  if (process == 0) {
+    sleep_long();
+    std::_Exit(0);
+  }
+  std::ofstream(file) << process << std::endl;
+  if (stay) {
+    sleep_long();
+  }
+  return 0;
+}
+
+int write_tet(const std::string& mesh_file, const std::string& report_file) {
+  cbc3d::Mesh mesh;
+  mesh.points = {{0.5, 0.5, 0.5}, {6.5, 0.5, 0.5}, {0.5, 6.5, 0.5}, {0.5, 0.5, 6.5}};
+  mesh.tets.add({0, 1, 2, 3}, 1);
+  cbc3d::write_mesh(mesh, mesh_file);
+  std::ofstream(report_file)
+      << R"({"status":"ok","reason":"","seconds":{"total":1.5,"cpu":1.25,"stages":{"all":1.5}},"peak_rss_bytes":99})";
+  return 0;
+}
+
+int fail(const std::string& report_file) {
+  std::ofstream(report_file) << R"({"status":"failed","reason":"no room left on the lattice"})";
+  return 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string mode = argc > 1 ? argv[1] : "";
+  const std::string first = argc > 2 ? argv[2] : "";
+  if (mode == "exit") return std::stoi(first);
+  if (mode == "sleep") return sleep_long(), 0;
+  if (mode == "allocate") return allocate();
+  if (mode == "spawn") return spawn(first, false);
+  if (mode == "spawn-and-stay") return spawn(first, true);
+  if (mode == "fail" && argc > 3) return fail(argv[3]);
+  if (mode == "mesh" && argc > 3) return write_tet(first, argv[3]);
+  if (mode == "say") return std::fprintf(stderr, "%s\n", first.c_str()) < 0;
+  if (mode == "flood") {
+    for (int n = 0; n < 20000; ++n) std::fprintf(stderr, "line %d of the flood\n", n);
+    return 0;
+  }
+  if (mode == "env") {
+    const char* value = std::getenv(first.c_str());
+    return std::fprintf(stderr, "%s\n", value == nullptr ? "unset" : value) < 0;
+  }
+  if (mode == "crash") {
+    std::fprintf(stderr, "about to crash\n");
+    std::signal(SIGSEGV, SIG_DFL);
+    std::raise(SIGSEGV);
+  }
+  return 2;
+}
