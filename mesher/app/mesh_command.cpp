@@ -37,15 +37,18 @@ struct MeshCommand {
 template <typename Enum>
 using Names = std::vector<std::pair<const char*, Enum>>;
 
-const Names<Connectivity> kConnectivityNames = {
-    {"vertex", Connectivity::vertex}, {"edge", Connectivity::edge}, {"face", Connectivity::face}, {"no", Connectivity::no}};
+const Names<Connectivity> kConnectivityNames = {{"vertex", Connectivity::vertex},
+                                                {"edge", Connectivity::edge},
+                                                {"face", Connectivity::face},
+                                                {"no", Connectivity::no}};
 const Names<TargetPosition> kTargetPositionNames = {{"voxel-centre", TargetPosition::voxel_centre},
                                                     {"voxel-faces", TargetPosition::voxel_faces}};
 const Names<OnFailure> kOnFailureNames = {{"stop", OnFailure::stop}, {"recover", OnFailure::recover}};
 
 template <typename Enum>
 std::string name_of(const Names<Enum>& names, Enum value) {
-  return std::find_if(names.begin(), names.end(), [value](const auto& n) { return n.second == value; })->first;
+  return std::find_if(names.begin(), names.end(), [value](const auto& n) { return n.second == value; })
+      ->first;
 }
 
 template <typename Number>
@@ -55,7 +58,8 @@ bool parse_number(std::string_view text, Number& value) {
 }
 
 /// "LABEL=F" -> the map of material fidelities.
-void parse_material_fidelity(const MeshCommand& command, const LabelImage& image, std::map<Label, double>& fidelity) {
+void parse_material_fidelity(const MeshCommand& command, const LabelImage& image,
+                             std::map<Label, double>& fidelity) {
   for (const std::string& text : command.material_fidelity) {
     const auto equals = text.find('=');
     Label label = 0;
@@ -82,6 +86,7 @@ nlohmann::json options_json(const MeshCommand& c, const MeshImageReport& report)
           {"fidelity", o.refine.fidelity},
           {"material_fidelity", material},
           {"max_distance_mm", o.refine.max_distance_mm},
+          {"finest_spacing_mm", report.finest_spacing_mm},
           {"iterations", o.deform.iterations},
           {"connectivity", name_of(kConnectivityNames, o.deform.connectivity)},
           {"target_position", name_of(kTargetPositionNames, o.deform.target_position)},
@@ -96,7 +101,11 @@ nlohmann::json options_json(const MeshCommand& c, const MeshImageReport& report)
 nlohmann::json fidelity_json(const MeshImageReport& report) {
   nlohmann::json list = nlohmann::json::array();
   for (const MaterialFidelity& f : report.refine.fidelity) {
-    list.push_back({{"label", f.label}, {"wanted", f.wanted}, {"f1", f.f1()}, {"f2", f.f2()}, {"met", f.met()},
+    list.push_back({{"label", f.label},
+                    {"wanted", f.wanted},
+                    {"f1", f.f1()},
+                    {"f2", f.f2()},
+                    {"met", f.met()},
                     {"image_voxels", f.image_voxels}});
   }
   return list;
@@ -128,10 +137,16 @@ nlohmann::json report_json(const MeshCommand& command, const MeshImageReport& re
           {"reason", ""},
           {"version", CBC3D_VERSION},
           {"options", options_json(command, report)},
-          {"counts", {{"vertices", mesh.points.size()}, {"tets", mesh.tets.size()}, {"pyramids", mesh.pyramids.size()},
-                      {"wedges", mesh.wedges.size()}, {"hexes", mesh.hexes.size()}}},
-          {"refinement", {{"rounds", report.refine.rounds}, {"finest_spacing_mm", report.finest_spacing_mm},
-                          {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
+          {"counts",
+           {{"vertices", mesh.points.size()},
+            {"tets", mesh.tets.size()},
+            {"pyramids", mesh.pyramids.size()},
+            {"wedges", mesh.wedges.size()},
+            {"hexes", mesh.hexes.size()}}},
+          {"refinement",
+           {{"rounds", report.refine.rounds},
+            {"finest_spacing_mm", report.finest_spacing_mm},
+            {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
           {"materials", fidelity_json(report)},
           {"deformation", deformation_json(report)},
           {"warnings", report.warnings},
@@ -141,7 +156,8 @@ nlohmann::json report_json(const MeshCommand& command, const MeshImageReport& re
 
 void write_failure(const MeshCommand& command, const char* status, const std::string& reason) {
   if (!command.report_file.empty()) {
-    const nlohmann::json json = {{"status", status}, {"reason", reason}, {"peak_rss_bytes", process_peak_rss_bytes()}};
+    const nlohmann::json json = {
+        {"status", status}, {"reason", reason}, {"peak_rss_bytes", process_peak_rss_bytes()}};
     write_text_file(command.report_file, json.dump(2) + "\n");
   }
 }
@@ -165,7 +181,8 @@ void run(MeshCommand& command) {
   MeshImageReport report;
   const Mesh mesh = mesh_image(image, options, progress, report);
   if (mesh.tets.size() == 0) {
-    throw JobError("the mesh of '" + command.image + "' is empty: no label is larger than the lattice; give a smaller --lattice-spacing");
+    throw JobError("the mesh of '" + command.image +
+                   "' is empty: no label is larger than the lattice; give a smaller --lattice-spacing");
   }
   progress.step("writing " + command.out, 0.97);
   write_mesh(mesh, command.out);
@@ -194,13 +211,19 @@ void run_reporting(MeshCommand& command) {
 
 /// Adds an option whose value goes into the field that `field` picks.
 template <typename Value, typename Field>
-CLI::Option* add_override(CLI::App& app, MeshCommand& c, const std::string& name, const std::string& text, Field field) {
+CLI::Option* add_override(CLI::App& app, MeshCommand& c, const std::string& name, const std::string& text,
+                          Field field) {
   return app.add_option_function<Value>(
-      name, [&c, field](const Value& value) { c.overrides.push_back([value, field](MeshImageOptions& o) { field(o) = value; }); }, text);
+      name,
+      [&c, field](const Value& value) {
+        c.overrides.push_back([value, field](MeshImageOptions& o) { field(o) = value; });
+      },
+      text);
 }
 
 template <typename Enum, typename Field>
-void add_choice(CLI::App& app, MeshCommand& c, const std::string& name, const std::string& text, const Names<Enum>& names, Field field) {
+void add_choice(CLI::App& app, MeshCommand& c, const std::string& name, const std::string& text,
+                const Names<Enum>& names, Field field) {
   std::vector<std::string> allowed;
   for (const auto& n : names) {
     allowed.emplace_back(n.first);
@@ -208,7 +231,9 @@ void add_choice(CLI::App& app, MeshCommand& c, const std::string& name, const st
   app.add_option_function<std::string>(
          name,
          [&c, &names, field](const std::string& value) {
-           const Enum chosen = std::find_if(names.begin(), names.end(), [&](const auto& n) { return value == n.first; })->second;
+           const Enum chosen = std::find_if(names.begin(), names.end(), [&](const auto& n) {
+                                 return value == n.first;
+                               })->second;
            c.overrides.push_back([chosen, field](MeshImageOptions& o) { field(o) = chosen; });
          },
          text)
@@ -216,32 +241,55 @@ void add_choice(CLI::App& app, MeshCommand& c, const std::string& name, const st
 }
 
 void add_lattice_options(CLI::App& mesh, MeshCommand& c) {
-  add_override<double>(mesh, c, "--lattice-spacing", "edge of the coarsest lattice cubes, mm [ten times the mean voxel spacing]",
-                       [](MeshImageOptions& o) -> double& { return o.lattice_spacing_mm; })->check(CLI::PositiveNumber);
-  add_override<double>(mesh, c, "--fidelity", "F: refine a material while its F1 or F2 is below; in (0,1] [0.95]",
-                       [](MeshImageOptions& o) -> double& { return o.refine.fidelity; })->check(CLI::Range(1e-6, 1.0));
-  mesh.add_option("--material-fidelity", c.material_fidelity, "LABEL=F: the fidelity of one label (repeatable)");
+  add_override<double>(mesh, c, "--lattice-spacing",
+                       "edge of the coarsest lattice cubes, mm [ten times the mean voxel spacing]",
+                       [](MeshImageOptions& o) -> double& { return o.lattice_spacing_mm; })
+      ->check(CLI::PositiveNumber);
+  add_override<double>(mesh, c, "--fidelity",
+                       "F: refine a material while its F1 or F2 is below; in (0,1] [0.95]",
+                       [](MeshImageOptions& o) -> double& { return o.refine.fidelity; })
+      ->check(CLI::Range(1e-6, 1.0));
+  add_override<double>(mesh, c, "--finest-spacing",
+                       "the fidelity criterion makes the lattice no finer than this, mm; --max-distance may "
+                       "go to a quarter of it "
+                       "[the smallest voxel spacing]",
+                       [](MeshImageOptions& o) -> double& { return o.refine.finest_spacing_mm; })
+      ->check(CLI::PositiveNumber);
+  mesh.add_option("--material-fidelity", c.material_fidelity,
+                  "LABEL=F: the fidelity of one label (repeatable)");
   add_override<double>(mesh, c, "--max-distance",
-                       "refine also where a boundary voxel has no interface vertex within so many mm; 0: off [quality: two voxel "
+                       "refine also where a boundary voxel has no interface vertex within so many mm; 0: off "
+                       "[quality: two voxel "
                        "diagonals, paper: off]",
-                       [](MeshImageOptions& o) -> double& { return o.refine.max_distance_mm; })->check(CLI::NonNegativeNumber);
+                       [](MeshImageOptions& o) -> double& { return o.refine.max_distance_mm; })
+      ->check(CLI::NonNegativeNumber);
 }
 
 void add_deformation_options(CLI::App& mesh, MeshCommand& c) {
-  add_override<int>(mesh, c, "--iterations", "deformation iterations [5]",
-                    [](MeshImageOptions& o) -> int& { return o.deform.iterations; })->check(CLI::Range(0, 1000));
-  add_choice(mesh, c, "--connectivity", "pattern that thins the target points: vertex, edge, face or no [no]", kConnectivityNames,
-             [](MeshImageOptions& o) -> Connectivity& { return o.deform.connectivity; });
-  add_choice(mesh, c, "--target-position", "targets at voxel-centre (half a voxel inside) or voxel-faces [quality: voxel-faces, paper: voxel-centre]",
-             kTargetPositionNames, [](MeshImageOptions& o) -> TargetPosition& { return o.deform.target_position; });
-  add_choice(mesh, c, "--on-failure", "where elements stay below the minimum quality: stop all, or recover there and go on [quality: recover, paper: stop]",
+  add_override<int>(mesh, c, "--iterations", "deformation iterations [5]", [](MeshImageOptions& o) -> int& {
+    return o.deform.iterations;
+  })->check(CLI::Range(0, 1000));
+  add_choice(mesh, c, "--connectivity", "pattern that thins the target points: vertex, edge, face or no [no]",
+             kConnectivityNames, [](MeshImageOptions& o) -> Connectivity& { return o.deform.connectivity; });
+  add_choice(mesh, c, "--target-position",
+             "targets at voxel-centre (half a voxel inside) or voxel-faces [quality: voxel-faces, paper: "
+             "voxel-centre]",
+             kTargetPositionNames,
+             [](MeshImageOptions& o) -> TargetPosition& { return o.deform.target_position; });
+  add_choice(mesh, c, "--on-failure",
+             "where elements stay below the minimum quality: stop all, or recover there and go on [quality: "
+             "recover, paper: stop]",
              kOnFailureNames, [](MeshImageOptions& o) -> OnFailure& { return o.deform.on_failure; });
   add_override<double>(mesh, c, "--young-pa", "Young's modulus, Pa [2100]",
-                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.young_pa; })->check(CLI::PositiveNumber);
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.young_pa; })
+      ->check(CLI::PositiveNumber);
   add_override<double>(mesh, c, "--poisson", "Poisson's ratio, in [0, 0.5) [0.45]",
-                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.poisson; })->check(CLI::Range(0.0, 0.499));
-  add_override<double>(mesh, c, "--min-dihedral", "smallest dihedral angle that the deformation keeps, degrees [5]",
-                       [](MeshImageOptions& o) -> double& { return o.deform.min_dihedral_deg; })->check(CLI::Range(0.0, 60.0));
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.poisson; })
+      ->check(CLI::Range(0.0, 0.499));
+  add_override<double>(mesh, c, "--min-dihedral",
+                       "smallest dihedral angle that the deformation keeps, degrees [5]",
+                       [](MeshImageOptions& o) -> double& { return o.deform.min_dihedral_deg; })
+      ->check(CLI::Range(0.0, 60.0));
 }
 
 }  // namespace
@@ -251,14 +299,17 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   CLI::App* mesh = app.add_subcommand("mesh", "mesh a segmented image");
   mesh->add_option("image", command->image, "label image: NIfTI, NRRD, MHA/MHD or INRIMAGE")->required();
   mesh->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
-  mesh->add_option("--preset", command->preset, "quality: our best so far; paper: the published method [quality]")
+  mesh->add_option("--preset", command->preset,
+                   "quality: our best so far; paper: the published method [quality]")
       ->check(CLI::IsMember(preset_names()));
   add_lattice_options(*mesh, *command);
   add_deformation_options(*mesh, *command);
   mesh->add_option("--seed", command->seed, "seed of the choices made by hash [1]");
-  mesh->add_option("--report", command->report_file, "JSON file with options, counts, fidelity, seconds and warnings");
+  mesh->add_option("--report", command->report_file,
+                   "JSON file with options, counts, fidelity, seconds and warnings");
   mesh->add_option("--dump-stages", command->dump_stages, "folder for the mesh after each stage");
-  mesh->add_option("--threads", command->threads, "threads of all pools [all cores]")->check(CLI::Range(0, 1024));
+  mesh->add_option("--threads", command->threads, "threads of all pools [all cores]")
+      ->check(CLI::Range(0, 1024));
   mesh->add_flag("--quiet", command->quiet, "no progress");
   mesh->callback([command, &exit_code] {
     run_reporting(*command);

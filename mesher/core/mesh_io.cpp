@@ -6,6 +6,7 @@
 #include <vtkCommand.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
@@ -82,8 +83,24 @@ vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Mesh& mesh) {
   return grid;
 }
 
+/// VTK prints its faults itself, in many lines, beside telling the observers: what the user gets is our one
+/// line.
+class VtkSilence {
+ public:
+  VtkSilence() : before_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~VtkSilence() { vtkLogger::SetStderrVerbosity(before_); }
+  VtkSilence(const VtkSilence&) = delete;
+  VtkSilence& operator=(const VtkSilence&) = delete;
+
+ private:
+  vtkLogger::Verbosity before_;
+};
+
 template <typename Writer>
 void run_writer(Writer& writer, const Mesh& mesh, const fs::path& path) {
+  const VtkSilence silence;
   vtkNew<FaultCatcher> faults;
   writer.AddObserver(vtkCommand::ErrorEvent, faults);
   const auto grid = to_vtk(mesh);
@@ -169,6 +186,7 @@ Mesh from_vtk(vtkUnstructuredGrid& grid, const fs::path& path) {
 
 template <typename Reader>
 Mesh run_reader(const fs::path& path) {
+  const VtkSilence silence;
   vtkNew<Reader> reader;
   vtkNew<FaultCatcher> faults;
   reader->AddObserver(vtkCommand::ErrorEvent, faults);

@@ -14,7 +14,8 @@ namespace {
 constexpr int kCoordinateBits = 21;
 
 struct Box {
-  std::array<int, 3> low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
+  std::array<int, 3> low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(),
+                         std::numeric_limits<int>::max()};
   std::array<int, 3> high{-1, -1, -1};
   void add(int d, int low_index, int high_index) {
     const auto axis = static_cast<std::size_t>(d);
@@ -36,7 +37,8 @@ Box labelled_box(const LabelImage& image) {
         const auto labelled = [](MaterialId m) { return m != kBackground; };
         const MaterialId* first = std::find_if(row, row + size[0], labelled);
         if (first != row + size[0]) {
-          const auto last = std::find_if(std::make_reverse_iterator(row + size[0]), std::make_reverse_iterator(row), labelled);
+          const auto last = std::find_if(std::make_reverse_iterator(row + size[0]),
+                                         std::make_reverse_iterator(row), labelled);
           mine.add(0, static_cast<int>(first - row), static_cast<int>(last.base() - row) - 1);
           mine.add(1, j, j);
           mine.add(2, k, k);
@@ -57,12 +59,13 @@ struct Grid {
   int cell_units = 2;
 };
 
-/// One layer of cells more than the box needs on every side, the whole centred on it, so that a symmetric object gets a
-/// symmetric lattice and no labelled voxel lies outside it.
+/// One layer of cells more than the box needs on every side, the whole centred on it, so that a symmetric
+/// object gets a symmetric lattice and no labelled voxel lies outside it.
 Grid make_grid(const LabelImage& image, const BccLatticeOptions& options) {
   const Box box = labelled_box(image);
   Grid grid;
-  const double levels = std::floor(std::log2(std::max(1.0, options.spacing_mm / options.finest_spacing_mm)) + 1e-9);
+  const double levels =
+      std::floor(std::log2(std::max(1.0, options.spacing_mm / options.finest_spacing_mm)) + 1e-9);
   int most_cells = 0;
   std::array<double, 3> centre{};
   for (int d = 0; d < 3; ++d) {
@@ -72,13 +75,15 @@ Grid make_grid(const LabelImage& image, const BccLatticeOptions& options) {
     const double needed = std::ceil(extent / options.spacing_mm) + 2;
     if (needed * 2 >= static_cast<double>(1 << kCoordinateBits)) {
       throw InputError("--lattice-spacing " + std::to_string(options.spacing_mm) +
-                       " mm is too small for this image; give at least " + std::to_string(extent / 1e5) + " mm");
+                       " mm is too small for this image; give at least " + std::to_string(extent / 1e5) +
+                       " mm");
     }
     grid.cells[axis] = static_cast<int>(needed);
     most_cells = std::max(most_cells, grid.cells[axis]);
   }
   int max_level = static_cast<int>(std::min(levels, 20.0));
-  while (max_level > 0 && static_cast<std::int64_t>(most_cells) << (max_level + 1) >= (1 << kCoordinateBits)) {
+  while (max_level > 0 &&
+         static_cast<std::int64_t>(most_cells) << (max_level + 1) >= (1 << kCoordinateBits)) {
     --max_level;
   }
   grid.cell_units = 2 << max_level;
@@ -93,8 +98,8 @@ Grid make_grid(const LabelImage& image, const BccLatticeOptions& options) {
 
 using PointTet = std::array<LatticePoint, 4>;
 
-/// The four tets between the cell at `cell` and its neighbour along `axis`: the segment of the two cell centres with
-/// each edge of the face between them.
+/// The four tets between the cell at `cell` and its neighbour along `axis`: the segment of the two cell
+/// centres with each edge of the face between them.
 std::array<PointTet, 4> tets_across_face(const Grid& grid, const Index3& cell, std::size_t axis) {
   const int s = grid.cell_units;
   const std::size_t u = (axis + 1) % 3;
@@ -108,7 +113,8 @@ std::array<PointTet, 4> tets_across_face(const Grid& grid, const Index3& cell, s
   LatticePoint corner = centre;
   corner[axis] += s / 2;
   const int h = s / 2;
-  const std::array<std::array<int, 2>, 4> ring = {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}};  // counter-clockwise about +axis
+  const std::array<std::array<int, 2>, 4> ring = {
+      {{-h, -h}, {h, -h}, {h, h}, {-h, h}}};  // counter-clockwise about +axis
   std::array<PointTet, 4> tets;
   for (std::size_t e = 0; e < 4; ++e) {
     LatticePoint first = corner;
@@ -134,13 +140,15 @@ bool holds_labelled_voxel(const LabelImage& image, const VoxelRaster& raster, co
 }
 
 /// Which of the 12 tets of a cell (4 a face, 3 upper faces) hold a labelled voxel: bit 4 * axis + edge.
-std::uint16_t labelled_tets(const LabelImage& image, const VoxelRaster& raster, const Grid& grid, const Index3& cell) {
+std::uint16_t labelled_tets(const LabelImage& image, const VoxelRaster& raster, const Grid& grid,
+                            const Index3& cell) {
   unsigned bits = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (cell[axis] + 1 < grid.cells[axis]) {
       const auto tets = tets_across_face(grid, cell, axis);
       for (unsigned e = 0; e < 4; ++e) {
-        bits |= holds_labelled_voxel(image, raster, tets[e]) ? 1U << (4 * static_cast<unsigned>(axis) + e) : 0U;
+        bits |=
+            holds_labelled_voxel(image, raster, tets[e]) ? 1U << (4 * static_cast<unsigned>(axis) + e) : 0U;
       }
     }
   }
@@ -154,7 +162,7 @@ void add_tets(Lattice& lattice, const Grid& grid, const Index3& cell, std::uint1
       const auto tets = tets_across_face(grid, cell, axis);
       for (unsigned e = 0; e < 4; ++e) {
         if ((of_axis >> e & 1U) != 0) {
-          RedTet red{{}, 0};
+          RedTet red;
           for (std::size_t n = 0; n < 4; ++n) {
             red.nodes[n] = lattice.vertex_at(tets[e][n]);
           }

@@ -1,4 +1,5 @@
-// Stage "BCC lattice construction" (paper, section "Adaptive Lattice Refinement"): the uniform coarse lattice.
+// Stage "BCC lattice construction" (paper, section "Adaptive Lattice Refinement"): the uniform coarse
+// lattice.
 #pragma once
 
 #include "mesher/core/label_image.hpp"
@@ -7,17 +8,18 @@
 namespace cbc3d {
 
 struct BccLatticeOptions {
-  double spacing_mm = 10;         ///< edge of the lattice cubes, mm
-  double finest_spacing_mm = 1;   ///< refinement may not go below this spacing, mm; sets the deepest level
+  double spacing_mm = 10;        ///< edge of the lattice cubes, mm
+  double finest_spacing_mm = 1;  ///< refinement may not go below this spacing, mm; sets the deepest level
 };
 
-/// Covers the labelled voxels of `image` with BCC tets, in the image's local frame and centred on the labelled region,
-/// and leaves out the tets that hold no labelled voxel. Throws InputError when the spacing is so small for this image
-/// that the lattice cannot be indexed.
+/// Covers the labelled voxels of `image` with BCC tets, in the image's local frame and centred on the
+/// labelled region, and leaves out the tets that hold no labelled voxel. Throws InputError when the spacing
+/// is so small for this image that the lattice cannot be indexed.
 Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& options);
 
-/// The spacing that is taken where none is given: ten times the geometric mean of the voxel spacing, which is close to
-/// the paper's choice in three of its four cases (10 mm for about 1 mm voxels, .15 mm for the stent).
+/// The spacing that is taken where none is given: ten times the geometric mean of the voxel spacing, which is
+/// close to the paper's choice in three of its four cases (10 mm for about 1 mm voxels, .15 mm for the
+/// stent).
 double default_lattice_spacing_mm(const ImageFrame& frame);
 
 }  // namespace cbc3d

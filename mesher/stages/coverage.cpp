@@ -6,7 +6,8 @@
 
 namespace cbc3d {
 
-std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets, const std::vector<std::array<TetId, 4>>& neighbours,
+std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
+                                            const std::vector<std::array<TetId, 4>>& neighbours,
                                             const std::vector<MaterialId>& materials) {
   std::vector<SurfaceVertex> found;
   for (std::size_t t = 0; t < tets.size(); ++t) {
@@ -27,7 +28,8 @@ std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets, const std::vec
   return found;
 }
 
-BoundaryCoverage::BoundaryCoverage(const LabelImage& image) : image_(image), state_(image.voxels.size(), kInterior) {
+BoundaryCoverage::BoundaryCoverage(const LabelImage& image)
+    : image_(image), state_(image.voxels.size(), kInterior) {
   const auto& size = image.frame.size;
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < size[2]; ++k) {
@@ -64,7 +66,8 @@ void BoundaryCoverage::cover_around(const Vec3& centre_mm, MaterialId material, 
   for (int d = 0; d < 3; ++d) {
     const auto axis = static_cast<std::size_t>(d);
     low[axis] = std::max(0, static_cast<int>(std::ceil((centre_mm[d] - distance_mm) / frame.spacing_mm[d])));
-    high[axis] = std::min(frame.size[axis] - 1, static_cast<int>(std::floor((centre_mm[d] + distance_mm) / frame.spacing_mm[d])));
+    high[axis] = std::min(frame.size[axis] - 1,
+                          static_cast<int>(std::floor((centre_mm[d] + distance_mm) / frame.spacing_mm[d])));
   }
   for (int k = low[2]; k <= high[2]; ++k) {
     for (int j = low[1]; j <= high[1]; ++j) {

@@ -16,18 +16,20 @@ struct SurfaceVertex {
   auto operator<=>(const SurfaceVertex&) const = default;
 };
 
-/// Every (vertex, material) with the vertex on a face between that labelled material and anything else; ascending.
-std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets, const std::vector<std::array<TetId, 4>>& neighbours,
+/// Every (vertex, material) with the vertex on a face between that labelled material and anything else;
+/// ascending.
+std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
+                                            const std::vector<std::array<TetId, 4>>& neighbours,
                                             const std::vector<MaterialId>& materials);
 
-/// The boundary voxels of an image (labelled, with a face neighbour of another material), and for each of them whether
-/// a surface vertex of its own material lies within a distance of its centre.
+/// The boundary voxels of an image (labelled, with a face neighbour of another material), and for each of
+/// them whether a surface vertex of its own material lies within a distance of its centre.
 class BoundaryCoverage {
  public:
   explicit BoundaryCoverage(const LabelImage& image);
 
-  /// Renews the answers for a set of surface vertices at `points` (local mm). Parallel; cost per vertex: the voxels
-  /// within `distance_mm`.
+  /// Renews the answers for a set of surface vertices at `points` (local mm). Parallel; cost per vertex: the
+  /// voxels within `distance_mm`.
   void update(const std::vector<SurfaceVertex>& surface, const std::vector<Vec3>& points, double distance_mm);
 
   [[nodiscard]] bool is_uncovered(std::size_t voxel) const { return state_[voxel] == kUncovered; }
@@ -42,8 +44,8 @@ class BoundaryCoverage {
   void cover_around(const Vec3& centre_mm, MaterialId material, double distance_mm);
 
   const LabelImage& image_;
-  std::vector<std::uint8_t> state_;      // a byte a voxel
-  std::vector<std::size_t> boundary_;    // offsets of the boundary voxels, ascending
+  std::vector<std::uint8_t> state_;    // a byte a voxel
+  std::vector<std::size_t> boundary_;  // offsets of the boundary voxels, ascending
 };
 
 }  // namespace cbc3d

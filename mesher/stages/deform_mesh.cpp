@@ -43,7 +43,8 @@ class Deformer {
     around_ = tets_of_vertices(mesh_.tets, mesh_.points.size());
   }
 
-  /// D: for each source the mean of the vectors to the targets of its label set within the local element size.
+  /// D: for each source the mean of the vectors to the targets of its label set within the local element
+  /// size.
   void displacements_of_sources() {
     std::fill(is_source_.begin(), is_source_.end(), 0);
     std::fill(load_.begin(), load_.end(), Vec3{});
@@ -81,7 +82,9 @@ class Deformer {
     const Vec3& s = mesh_.points[source.vertex];
     const double radius = mean_edge_length(source.vertex);
     const ImageFrame& frame = image_.frame;
-    const auto first_index = [&](int d) { return std::max(0, static_cast<int>(std::floor((s[d] - radius) / frame.spacing_mm[d]))); };
+    const auto first_index = [&](int d) {
+      return std::max(0, static_cast<int>(std::floor((s[d] - radius) / frame.spacing_mm[d])));
+    };
     const auto last_index = [&](int d) {
       return std::min(frame.size[static_cast<std::size_t>(d)] - 1,
                       static_cast<int>(std::ceil((s[d] + radius) / frame.spacing_mm[d])));
@@ -90,7 +93,8 @@ class Deformer {
     int count = 0;
     for (int k = first_index(2); k <= last_index(2); ++k) {
       for (int j = first_index(1); j <= last_index(1); ++j) {
-        const std::size_t r = static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) + static_cast<std::size_t>(j);
+        const std::size_t r = static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
+                              static_cast<std::size_t>(j);
         const auto* const row_end = targets_.targets.data() + targets_.first[r + 1];
         const auto* t = std::lower_bound(targets_.targets.data() + targets_.first[r], row_end, first_index(0),
                                          [](const TargetPoint& a, int i) { return a.i < i; });
@@ -171,8 +175,8 @@ class Deformer {
     }
   }
 
-  /// Puts the vertices of failing tets back, and again around those that this makes fail. It ends, at the latest with
-  /// every vertex back where no tet fails.
+  /// Puts the vertices of failing tets back, and again around those that this makes fail. It ends, at the
+  /// latest with every vertex back where no tet fails.
   void recover(const std::vector<Vec3>& before, std::vector<std::uint8_t>& failing) {
     std::vector<std::uint8_t> put_back(mesh_.points.size(), 0);
     do {

@@ -41,7 +41,9 @@ bool is_target_voxel(const LabelImage& image, int i, int j, int k) {
 /// The neighbours that come earlier in raster order and, when accepted, bar a voxel.
 std::vector<Index3> barring_neighbours(Connectivity connectivity) {
   std::vector<Index3> offsets;
-  const int most_steps = connectivity == Connectivity::vertex ? 3 : connectivity == Connectivity::edge ? 2 : 1;
+  const int most_steps = connectivity == Connectivity::vertex ? 3
+                         : connectivity == Connectivity::edge ? 2
+                                                              : 1;
   for (int k = -1; k <= 0; ++k) {
     for (int j = -1; j <= 1; ++j) {
       for (int i = -1; i <= 1; ++i) {
@@ -82,16 +84,19 @@ void thin(std::vector<std::vector<int>>& rows, const ImageFrame& frame, Connecti
     if (!frame.contains(i, j, k)) {
       return false;
     }
-    const auto& row = rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) + static_cast<std::size_t>(j)];
+    const auto& row = rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
+                           static_cast<std::size_t>(j)];
     return std::binary_search(row.begin(), row.end(), i);
   };
   for (int k = 0; k < frame.size[2]; ++k) {
     for (int j = 0; j < frame.size[1]; ++j) {
-      auto& row = rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) + static_cast<std::size_t>(j)];
+      auto& row = rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
+                       static_cast<std::size_t>(j)];
       std::vector<int> kept;
       for (const int i : row) {
         const bool barred = std::any_of(barring.begin(), barring.end(), [&](const Index3& o) {
-          return o[1] == 0 && o[2] == 0 ? !kept.empty() && kept.back() == i + o[0] : accepted(i + o[0], j + o[1], k + o[2]);
+          return o[1] == 0 && o[2] == 0 ? !kept.empty() && kept.back() == i + o[0]
+                                        : accepted(i + o[0], j + o[1], k + o[2]);
         });
         if (!barred) {
           kept.push_back(i);
@@ -162,8 +167,8 @@ std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSe
   return sources;
 }
 
-TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, TargetPosition position,
-                                   LabelSets& sets) {
+TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity,
+                                   TargetPosition position, LabelSets& sets) {
   std::vector<std::vector<int>> rows = boundary_rows(image);
   thin(rows, image.frame, connectivity);
   TargetPoints points;

@@ -2,7 +2,8 @@
 //
 // Notation: s  source: a vertex on the mesh surface or on an interface;
 //           t  target: a boundary voxel of the image;
-//           label set: the materials that meet at a point, background included; only points with equal sets are matched.
+//           label set: the materials that meet at a point, background included; only points with equal sets
+//           are matched.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +43,9 @@ struct SourcePoint {
 std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSets& sets);
 
 struct TargetPoint {
-  std::int32_t i;         ///< voxel index along x; (j, k) is told by the row
+  std::int32_t i;  ///< voxel index along x; (j, k) is told by the row
   std::uint32_t set;
-  Vec3 position_mm;       ///< local mm
+  Vec3 position_mm;  ///< local mm
 };
 
 /// Target points in rows of voxels: targets[first[r]] ... of row r = k * size_y + j, ascending in i.
@@ -53,10 +54,11 @@ struct TargetPoints {
   std::vector<TargetPoint> targets;
 };
 
-/// The boundary voxels of the labelled materials thinned by `connectivity`: in raster order, x fastest, an accepted voxel
-/// bars its 26 (vertex), 18 (edge) or 6 (face) neighbours; "no" accepts all. A boundary voxel has a face neighbour of
-/// another material; its set are the materials in its 26-neighbourhood. Same result at any thread count.
-TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, TargetPosition position,
-                                   LabelSets& sets);
+/// The boundary voxels of the labelled materials thinned by `connectivity`: in raster order, x fastest, an
+/// accepted voxel bars its 26 (vertex), 18 (edge) or 6 (face) neighbours; "no" accepts all. A boundary voxel
+/// has a face neighbour of another material; its set are the materials in its 26-neighbourhood. Same result
+/// at any thread count.
+TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity,
+                                   TargetPosition position, LabelSets& sets);
 
 }  // namespace cbc3d

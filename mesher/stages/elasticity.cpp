@@ -40,7 +40,8 @@ std::array<double, 9> inverse_of(const std::array<float, 9>& m) {
 
 template <typename Real>
 Vec3 times(const std::array<Real, 9>& m, const Vec3& v) {
-  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z, m[6] * v.x + m[7] * v.y + m[8] * v.z};
+  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+          m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }
 
 /// Sum in fixed chunks, then over the chunks in order: the same bits at any thread count.
@@ -95,8 +96,8 @@ void ElasticSystem::assemble(const MaterialMesh& mesh, const std::vector<std::ui
   }
 }
 
-/// Row v gathers from its tets, so rows are independent. Block of nodes a, b of one tet, with gradients ga, gb:
-/// V (lambda ga gb^T + mu gb ga^T + mu (ga . gb) I).
+/// Row v gathers from its tets, so rows are independent. Block of nodes a, b of one tet, with gradients ga,
+/// gb: V (lambda ga gb^T + mu gb ga^T + mu (ga . gb) I).
 void ElasticSystem::assemble_row(const MaterialMesh& mesh, std::size_t v, bool source) {
   const double young = options_.young_pa * 1e-6;  // N/mm^2, to go with mm
   const double mu = young / (2 * (1 + options_.poisson));

@@ -13,10 +13,10 @@
 namespace cbc3d {
 
 struct ElasticityOptions {
-  double young_pa = 2100;      ///< Young's modulus, Pa (as the paper's ancestor had it)
-  double poisson = 0.45;       ///< Poisson's ratio, in [0, 0.5)
-  double tolerance = 1e-5;     ///< the solver stops when the residual has fallen by this factor
-  int max_iterations = 300;    ///< of the conjugate gradients
+  double young_pa = 2100;    ///< Young's modulus, Pa (as the paper's ancestor had it)
+  double poisson = 0.45;     ///< Poisson's ratio, in [0, 0.5)
+  double tolerance = 1e-5;   ///< the solver stops when the residual has fallen by this factor
+  int max_iterations = 300;  ///< of the conjugate gradients
 };
 
 struct SolveReport {
@@ -24,8 +24,8 @@ struct SolveReport {
   double relative_residual = 0;
 };
 
-/// Sparse matrix of 3x3 blocks in compressed rows. Blocks are floats: the stiffness is a model parameter, the solution's
-/// accuracy is governed by the residual, which is computed with the same blocks in double.
+/// Sparse matrix of 3x3 blocks in compressed rows. Blocks are floats: the stiffness is a model parameter, the
+/// solution's accuracy is governed by the residual, which is computed with the same blocks in double.
 class ElasticSystem {
  public:
   /// The sparsity pattern is that of the mesh and stays valid while its connectivity does.

@@ -4,13 +4,14 @@
 //   a            lattice spacing in mm: the edge of a cube of the coarsest level
 //   level l      red tets of level l are BCC tets of the lattice with spacing a / 2^l
 //   red tet      a regular tet: congruent (up to scale) to the coarse ones, may be split 1:8
-//   green tet    a piece of a red tet that has split edges but is not split itself (1:2 or 1:4); never kept, always
+//   green tet    a piece of a red tet that has split edges but is not split itself (1:2 or 1:4); never kept,
+//   always
 //                derived anew, so that it is "replaced by its red parent when it must split" for free
 //   unit         the finest half-spacing, a / 2^(max_level+1); every vertex is an integer triple in units
 //
-// A point of the level-(l+1) lattice that is no vertex of level l is the midpoint of exactly one level-l edge.
-// Hence "the edge is split" and "its midpoint is in the vertex table" are the same statement, and the table of
-// vertices plus the list of red leaves is the whole state.
+// A point of the level-(l+1) lattice that is no vertex of level l is the midpoint of exactly one level-l
+// edge. Hence "the edge is split" and "its midpoint is in the vertex table" are the same statement, and the
+// table of vertices plus the list of red leaves is the whole state.
 #pragma once
 
 #include <array>
@@ -29,15 +30,18 @@ inline constexpr VertexId kNoVertex = 0xFFFFFFFFU;
 
 /// Maps lattice units to an image's local mm.
 struct LatticeFrame {
-  Vec3 origin_mm;        ///< local position of the lattice point (0,0,0)
-  double unit_mm = 1;    ///< length of one unit
-  int max_level = 0;     ///< no red tet is finer than this
+  Vec3 origin_mm;      ///< local position of the lattice point (0,0,0)
+  double unit_mm = 1;  ///< length of one unit
+  int max_level = 0;   ///< no red tet is finer than this
 
   [[nodiscard]] Vec3 local(const LatticePoint& p) const {
-    return origin_mm + Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} * unit_mm;
+    return origin_mm +
+           Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])} * unit_mm;
   }
   /// Edge of a cube of the level, mm: the length of the two long edges of its tets.
-  [[nodiscard]] double spacing_mm(int level) const { return unit_mm * static_cast<double>(2 << (max_level - level)); }
+  [[nodiscard]] double spacing_mm(int level) const {
+    return unit_mm * static_cast<double>(2 << (max_level - level));
+  }
 };
 
 /// Lattice point -> vertex number; open addressing, one flat array.
@@ -63,7 +67,9 @@ class VertexTable {
 /// A leaf of the red refinement. Nodes 0-1 and 2-3 are its two long edges; positively oriented.
 struct RedTet {
   std::array<VertexId, 4> nodes;
-  std::int32_t level;
+  std::int8_t level = 0;
+  std::uint8_t split =
+      0;  ///< bit e: edge e is split (the order of edges is red_green's); kept by refine_red_green
 };
 
 struct Lattice {

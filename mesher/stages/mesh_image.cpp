@@ -13,7 +13,8 @@ namespace {
 /// Times the stages, tells of them, and dumps their meshes when asked to.
 class StageLog {
  public:
-  StageLog(const LabelImage& image, const MeshImageOptions& options, Progress& progress, MeshImageReport& report)
+  StageLog(const LabelImage& image, const MeshImageOptions& options, Progress& progress,
+           MeshImageReport& report)
       : image_(image), options_(options), progress_(progress), report_(report) {}
 
   template <typename Stage>
@@ -63,12 +64,22 @@ MaterialMesh as_material_mesh(const Lattice& lattice) {
   return {local_points(lattice), tets.nodes, std::vector<MaterialId>(tets.size(), 1)};
 }
 
-BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOptions& options, MeshImageReport& report) {
+RefineOptions refine_options(const LabelImage& image, const MeshImageOptions& options) {
+  RefineOptions refine = options.refine;
+  if (refine.finest_spacing_mm <= 0) {
+    refine.finest_spacing_mm = image.frame.spacing_mm.min_coeff();
+  }
+  return refine;
+}
+
+BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOptions& options,
+                                  MeshImageReport& report) {
   BccLatticeOptions lattice;
   lattice.spacing_mm =
       options.lattice_spacing_mm > 0 ? options.lattice_spacing_mm : default_lattice_spacing_mm(image.frame);
-  // Fidelity stops at the smallest voxel edge; a wire one voxel wide needs two more halvings to be held by several tets.
-  lattice.finest_spacing_mm = image.frame.spacing_mm.min_coeff() / 4;
+  // A wire one voxel wide needs two halvings below the voxel to be held by several tets.
+  lattice.finest_spacing_mm =
+      refine_options(image, options).finest_spacing_mm / (options.refine.max_distance_mm > 0 ? 4 : 1);
   report.lattice_spacing_mm = lattice.spacing_mm;
   return lattice;
 }
@@ -81,26 +92,29 @@ void warn_of_lost_labels(const LabelImage& image, const MaterialMesh& mesh, Mesh
   const std::vector<std::size_t> voxels = image.voxels_per_material();
   for (std::size_t m = 1; m < there.size(); ++m) {
     if (there[m] == 0) {
-      report.warnings.push_back("label " + std::to_string(image.labels[m]) + " (" + std::to_string(voxels[m]) +
-                                " voxels) is not in the mesh; a smaller --lattice-spacing or --max-distance keeps it");
+      report.warnings.push_back(
+          "label " + std::to_string(image.labels[m]) + " (" + std::to_string(voxels[m]) +
+          " voxels) is not in the mesh; a smaller --lattice-spacing or --max-distance keeps it");
     }
   }
 }
 
 }  // namespace
 
-Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress, MeshImageReport& report) {
+Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress,
+                MeshImageReport& report) {
   StageLog log(image, options, progress, report);
 
-  Lattice lattice = log.run("bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
+  Lattice lattice = log.run(
+      "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
   if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
 
-  RefineOptions refine = options.refine;
-  refine.finest_spacing_mm = image.frame.spacing_mm.min_coeff() * 0.5;
+  const RefineOptions refine = refine_options(image, options);
   report.refine = log.run("adaptive_refinement", 0.1, [&] {
     return refine_lattice(lattice, image, refine, [&](int round, std::size_t tets) {
-      progress.step("adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
-                    std::min(0.5, 0.1 + 0.03 * round));
+      progress.step(
+          "adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
+          std::min(0.5, 0.1 + 0.03 * round));
     });
   });
   CandidateMesh candidate = std::move(report.refine.mesh);
@@ -115,7 +129,8 @@ Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progre
 
   report.deform = log.run("deformation", 0.55, [&] {
     return deform_mesh(mesh, image, options.deform, [&](int i) {
-      progress.step("deformation, iteration " + std::to_string(i + 1), 0.55 + 0.4 * i / std::max(1, options.deform.iterations));
+      progress.step("deformation, iteration " + std::to_string(i + 1),
+                    0.55 + 0.4 * i / std::max(1, options.deform.iterations));
     });
   });
   log.dump("3_deformed_mesh", mesh);

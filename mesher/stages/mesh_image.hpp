@@ -16,24 +16,27 @@
 namespace cbc3d {
 
 struct MeshImageOptions {
-  double lattice_spacing_mm = 0;     ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
+  double lattice_spacing_mm =
+      0;  ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
   RefineOptions refine;
   DeformOptions deform;
-  std::filesystem::path dump_stages; ///< folder for the mesh after each stage; empty: none is written
+  std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
 
 struct MeshImageReport {
   double lattice_spacing_mm = 0;
   double finest_spacing_mm = 0;
-  std::vector<std::pair<std::string, double>> stage_seconds;  ///< in order; reading and writing files not included
+  std::vector<std::pair<std::string, double>>
+      stage_seconds;  ///< in order; reading and writing files not included
   double seconds = 0;
-  RefineResult refine;                                        ///< without its mesh
+  RefineResult refine;  ///< without its mesh
   DeformReport deform;
   std::vector<std::string> warnings;
 };
 
-/// Meshes `image`; the mesh is in physical space and carries the image's label values. Throws InputError for options
-/// out of range. The same bytes come out at any thread count.
-Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress, MeshImageReport& report);
+/// Meshes `image`; the mesh is in physical space and carries the image's label values. Throws InputError for
+/// options out of range. The same bytes come out at any thread count.
+Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress,
+                MeshImageReport& report);
 
 }  // namespace cbc3d

@@ -4,7 +4,9 @@
 
 namespace cbc3d {
 
-std::vector<std::string> preset_names() { return {"quality", "paper"}; }
+std::vector<std::string> preset_names() {
+  return {"quality", "paper"};
+}
 
 MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame) {
   MeshImageOptions options;

@@ -8,9 +8,11 @@
 
 namespace cbc3d {
 
-/// "quality": our best so far. The paper's stages with what measurably improves them: refinement also where a boundary
-///            voxel has no interface vertex within two voxel diagonals (the paper's fidelity never notices a lost vessel
-///            tip), targets on the voxel faces between the labels (no volume bias of half a voxel), and local recovery.
+/// "quality": our best so far. The paper's stages with what measurably improves them: refinement also where a
+/// boundary
+///            voxel has no interface vertex within two voxel diagonals (the paper's fidelity never notices a
+///            lost vessel tip), targets on the voxel faces between the labels (no volume bias of half a
+///            voxel), and local recovery.
 /// "paper":   the published method with the published parameters.
 std::vector<std::string> preset_names();
 

@@ -8,12 +8,14 @@
 namespace cbc3d {
 namespace {
 
-// Edges of a tet by their end nodes; edge e and edge 5 - e are opposite. Edges 0 and 5 are the long ones of a red tet.
-constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdge = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+// Edges of a tet by their end nodes; edge e and edge 5 - e are opposite. Edges 0 and 5 are the long ones of a
+// red tet.
+constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdge = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 // The edges of the face opposite to each node, as a bit set.
-constexpr std::array<unsigned, 4> kFaceEdges = {(1U << 3) | (1U << 4) | (1U << 5), (1U << 1) | (1U << 2) | (1U << 5),
-                                                (1U << 0) | (1U << 2) | (1U << 4), (1U << 0) | (1U << 1) | (1U << 3)};
-constexpr unsigned kAllEdges = 63;
+constexpr std::array<unsigned, 4> kFaceEdges = {
+    (1U << 3) | (1U << 4) | (1U << 5), (1U << 1) | (1U << 2) | (1U << 5), (1U << 0) | (1U << 2) | (1U << 4),
+    (1U << 0) | (1U << 1) | (1U << 3)};
 
 LatticePoint midpoint(const LatticePoint& a, const LatticePoint& b) {
   return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
@@ -31,8 +33,8 @@ bool is_split(const Lattice& lattice, const LatticePoint& a, const LatticePoint&
 
 /// How a red tet stands among its neighbours.
 struct Pattern {
-  unsigned split = 0;      ///< bit e: edge e is split
-  bool too_deep = false;   ///< a neighbour is finer than a green piece could meet
+  unsigned split = 0;     ///< bit e: edge e is split
+  bool too_deep = false;  ///< a neighbour is finer than a green piece could meet
 };
 
 Pattern pattern_of(const Lattice& lattice, const RedTet& red) {
@@ -56,27 +58,30 @@ Pattern pattern_of(const Lattice& lattice, const RedTet& red) {
           edges[n++] = e;
         }
       }
-      pattern.too_deep = is_split(lattice, mid[edges[0]], mid[edges[1]]) || is_split(lattice, mid[edges[1]], mid[edges[2]]) ||
+      pattern.too_deep = is_split(lattice, mid[edges[0]], mid[edges[1]]) ||
+                         is_split(lattice, mid[edges[1]], mid[edges[2]]) ||
                          is_split(lattice, mid[edges[2]], mid[edges[0]]);
     }
   }
   return pattern;
 }
 
-/// What the closure asks of a red tet: the edges to be split in addition (all six for a red split).
+/// What the closure asks of a red tet: the edges to be split in addition, or a red split. demand_of notes its
+/// split edges.
 struct Demand {
-  unsigned extra = 0;
+  std::uint8_t extra = 0;
   bool red = false;
 };
 
-Demand demand_of(const Lattice& lattice, const RedTet& red) {
+Demand demand_of(const Lattice& lattice, RedTet& red) {
   const Pattern pattern = pattern_of(lattice, red);
   const unsigned split = pattern.split;
+  red.split = static_cast<std::uint8_t>(split);
   if (split == 0) {
     return {};
   }
   if (pattern.too_deep) {
-    return {kAllEdges & ~split, true};
+    return {0, true};
   }
   unsigned closed = split;  // with the third edge of every face that has two
   for (const unsigned face : kFaceEdges) {
@@ -90,70 +95,119 @@ Demand demand_of(const Lattice& lattice, const RedTet& red) {
   const bool opposite = closed == ((1U << 0) | (1U << 5)) || closed == ((1U << 1) | (1U << 4)) ||
                         closed == ((1U << 2) | (1U << 3));
   if (one || face || opposite) {
-    return {closed & ~split, false};
+    return {static_cast<std::uint8_t>(closed & ~split), false};
   }
-  return {kAllEdges & ~split, true};
+  return {0, true};
 }
 
-/// Splits the tet at `index` in eight; the first child takes its place, the others go to the end.
-void split_red(Lattice& lattice, std::size_t index) {
-  const RedTet red = lattice.reds[index];
-  std::array<VertexId, 6> m;
-  for (unsigned e = 0; e < 6; ++e) {
-    const LatticePoint a = lattice.points[red.nodes[kEdge[e][0]]];
-    const LatticePoint b = lattice.points[red.nodes[kEdge[e][1]]];
-    m[e] = lattice.vertex_at(midpoint(a, b));
-  }
-  const auto& [a, b, c, d] = red.nodes;
-  const VertexId ab = m[0], ac = m[1], ad = m[2], bc = m[3], bd = m[4], cd = m[5];
-  // The shortest inner diagonal joins the midpoints of the two long edges, ab and cd. Every child is written so that
-  // its long edges are again 0-1 and 2-3 and its orientation is the parent's.
-  const std::array<std::array<VertexId, 4>, 8> children = {{{a, ab, ac, ad},
-                                                            {ab, b, bc, bd},
-                                                            {ac, bc, c, cd},
-                                                            {ad, bd, cd, d},
-                                                            {ab, cd, ac, ad},
-                                                            {ab, cd, bc, ac},
-                                                            {ab, cd, bd, bc},
-                                                            {ab, cd, ad, bd}}};
-  lattice.reds[index] = {children[0], red.level + 1};
-  for (std::size_t n = 1; n < children.size(); ++n) {
-    lattice.reds.push_back({children[n], red.level + 1});
-  }
-}
+/// Runs the closure. A sweep looks (in parallel, at a state that nobody changes) at the red tets that the
+/// last sweep can have touched, then acts in order. A new midpoint on the edge a-b concerns the tets with
+/// that edge, those of whose edges it is one half (a or b is a node of theirs), and those of whose faces it
+/// is an inner segment (all three edges of that face are split): so nodes carry the number of the sweep that
+/// last split an edge at them.
+class Closure {
+ public:
+  explicit Closure(Lattice& lattice) : lattice_(lattice), last_touched_(lattice.points.size(), 0) {}
 
-void split_edges(Lattice& lattice, const RedTet& red, unsigned edges) {
-  for (unsigned e = 0; e < 6; ++e) {
-    if ((edges >> e & 1U) != 0) {
-      const LatticePoint a = lattice.points[red.nodes[kEdge[e][0]]];
-      const LatticePoint b = lattice.points[red.nodes[kEdge[e][1]]];
-      lattice.vertex_at(midpoint(a, b));
+  std::size_t run(const std::vector<std::uint8_t>& marked) {
+    const std::size_t count = lattice_.reds.size();
+    for (std::size_t t = 0; t < count; ++t) {
+      if (marked[t] != 0 && lattice_.reds[t].level < lattice_.frame.max_level) {
+        split_red(t);
+      }
+    }
+    for (bool changed = split_count_ > 0; changed;) {
+      ++sweep_;
+      changed = sweep();
+    }
+    return split_count_;
+  }
+
+ private:
+  [[nodiscard]] bool is_concerned(const RedTet& red) const {
+    for (const VertexId v : red.nodes) {
+      if (last_touched_[v] + 1 == sweep_) {
+        return true;
+      }
+    }
+    return std::any_of(kFaceEdges.begin(), kFaceEdges.end(),
+                       [&](unsigned face) { return (red.split & face) == face; });
+  }
+
+  bool sweep() {
+    const std::size_t count = lattice_.reds.size();
+    std::vector<Demand> demands(count);
+#pragma omp parallel for schedule(static, 4096)
+    for (std::size_t t = 0; t < count; ++t) {
+      if (is_concerned(lattice_.reds[t])) {
+        demands[t] = demand_of(lattice_, lattice_.reds[t]);
+      }
+    }
+    bool changed = false;
+    for (std::size_t t = 0; t < count; ++t) {
+      if (demands[t].red) {
+        split_red(t);
+        changed = true;
+      } else if (demands[t].extra != 0) {
+        split_edges(lattice_.reds[t], demands[t].extra);
+        changed = true;
+      }
+    }
+    return changed;
+  }
+
+  VertexId split_edge(VertexId a, VertexId b) {
+    const std::size_t before = lattice_.points.size();
+    const VertexId middle = lattice_.vertex_at(midpoint(lattice_.points[a], lattice_.points[b]));
+    if (middle == before) {
+      last_touched_.push_back(sweep_);
+      last_touched_[a] = last_touched_[b] = sweep_;
+    }
+    return middle;
+  }
+
+  void split_edges(const RedTet& red, unsigned edges) {
+    for (unsigned e = 0; e < 6; ++e) {
+      if ((edges >> e & 1U) != 0) {
+        split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]]);
+      }
     }
   }
-}
 
-/// One sweep over all red tets: looks (in parallel, at a state that nobody changes), then acts in order.
-std::size_t close_once(Lattice& lattice, bool& changed) {
-  const std::size_t count = lattice.reds.size();
-  std::vector<Demand> demands(count);
-#pragma omp parallel for schedule(static, 1024)
-  for (std::size_t t = 0; t < count; ++t) {
-    demands[t] = demand_of(lattice, lattice.reds[t]);
-  }
-  std::size_t split = 0;
-  changed = false;
-  for (std::size_t t = 0; t < count; ++t) {
-    if (demands[t].red) {
-      split_red(lattice, t);
-      ++split;
-      changed = true;
-    } else if (demands[t].extra != 0) {
-      split_edges(lattice, lattice.reds[t], demands[t].extra);
-      changed = true;
+  /// Splits the tet at `index` in eight; the first child takes its place, the others go to the end. All
+  /// children have a midpoint among their nodes, which is touched, so the next sweep looks at them.
+  void split_red(std::size_t index) {
+    const RedTet red = lattice_.reds[index];
+    std::array<VertexId, 6> m;
+    for (unsigned e = 0; e < 6; ++e) {
+      m[e] = split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]]);
+      last_touched_[m[e]] = sweep_;
     }
+    const auto& [a, b, c, d] = red.nodes;
+    const VertexId ab = m[0], ac = m[1], ad = m[2], bc = m[3], bd = m[4], cd = m[5];
+    // The shortest inner diagonal joins the midpoints of the two long edges, ab and cd. Every child is
+    // written so that its long edges are again 0-1 and 2-3 and its orientation is the parent's.
+    const std::array<std::array<VertexId, 4>, 8> children = {{{a, ab, ac, ad},
+                                                              {ab, b, bc, bd},
+                                                              {ac, bc, c, cd},
+                                                              {ad, bd, cd, d},
+                                                              {ab, cd, ac, ad},
+                                                              {ab, cd, bc, ac},
+                                                              {ab, cd, bd, bc},
+                                                              {ab, cd, ad, bd}}};
+    const auto level = static_cast<std::int8_t>(red.level + 1);
+    lattice_.reds[index] = {children[0], level, 0};
+    for (std::size_t n = 1; n < children.size(); ++n) {
+      lattice_.reds.push_back({children[n], level, 0});
+    }
+    ++split_count_;
   }
-  return split;
-}
+
+  Lattice& lattice_;
+  std::vector<std::uint32_t> last_touched_;  // per vertex
+  std::uint32_t sweep_ = 1;
+  std::size_t split_count_ = 0;
+};
 
 class Extractor {
  public:
@@ -163,13 +217,8 @@ class Extractor {
     tets_.nodes.reserve(lattice_.reds.size());
     tets_.parent.reserve(lattice_.reds.size());
     tets_.green.reserve(lattice_.reds.size());
-    std::vector<std::uint8_t> split(lattice_.reds.size());
-#pragma omp parallel for schedule(static, 1024)
-    for (std::size_t t = 0; t < split.size(); ++t) {
-      split[t] = static_cast<std::uint8_t>(pattern_of(lattice_, lattice_.reds[t]).split);
-    }
-    for (std::size_t t = 0; t < split.size(); ++t) {
-      emit(t, split[t]);
+    for (std::size_t t = 0; t < lattice_.reds.size(); ++t) {
+      emit(t, lattice_.reds[t].split);
     }
     return std::move(tets_);
   }
@@ -181,7 +230,8 @@ class Extractor {
       add(t, nodes, 0);
     } else if ((split & (split - 1)) == 0) {
       emit_halves(t, first_edge(split));
-    } else if (const auto face = std::find(kFaceEdges.begin(), kFaceEdges.end(), split); face != kFaceEdges.end()) {
+    } else if (const auto face = std::find(kFaceEdges.begin(), kFaceEdges.end(), split);
+               face != kFaceEdges.end()) {
       emit_face(t, static_cast<std::size_t>(face - kFaceEdges.begin()));
     } else {
       emit_opposite(t, first_edge(split));
@@ -255,19 +305,11 @@ class Extractor {
 }  // namespace
 
 std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& marked) {
-  std::size_t split = 0;
-  for (std::size_t t = 0; t < marked.size(); ++t) {
-    if (marked[t] != 0 && lattice.reds[t].level < lattice.frame.max_level) {
-      split_red(lattice, t);
-      ++split;
-    }
-  }
-  for (bool changed = split > 0; changed;) {
-    split += close_once(lattice, changed);
-  }
-  return split;
+  return Closure(lattice).run(marked);
 }
 
-LatticeTets extract_tets(const Lattice& lattice) { return Extractor(lattice).run(); }
+LatticeTets extract_tets(const Lattice& lattice) {
+  return Extractor(lattice).run();
+}
 
 }  // namespace cbc3d

@@ -32,7 +32,8 @@ class Refiner {
     for (std::size_t m = 0; m < voxels.size(); ++m) {
       const auto own = options.material_fidelity.find(image.labels[m]);
       result_.fidelity.push_back({static_cast<MaterialId>(m), image.labels[m],
-                                  own != options.material_fidelity.end() ? own->second : options.fidelity, 0, voxels[m], 0});
+                                  own != options.material_fidelity.end() ? own->second : options.fidelity, 0,
+                                  voxels[m], 0});
     }
     if (options.max_distance_mm > 0) {
       coverage_.emplace(image);
@@ -56,7 +57,8 @@ class Refiner {
   }
 
  private:
-  /// The material of a tet is that of the image at its centroid: the one whose signed distance is positive there.
+  /// The material of a tet is that of the image at its centroid: the one whose signed distance is positive
+  /// there.
   void label_by_centroid() {
     CandidateMesh& mesh = result_.mesh;
     mesh.tets = extract_tets(lattice_);
@@ -83,17 +85,19 @@ class Refiner {
   void find_uncovered_voxels() {
     if (coverage_) {
       const CandidateMesh& mesh = result_.mesh;
-      coverage_->update(surface_vertices(mesh.tets.nodes, mesh.neighbours, mesh.materials), points_, options_.max_distance_mm);
+      coverage_->update(surface_vertices(mesh.tets.nodes, mesh.neighbours, mesh.materials), points_,
+                        options_.max_distance_mm);
     }
   }
 
   [[nodiscard]] std::array<LatticePoint, 4> lattice_points(std::size_t t) const {
     const auto& nodes = result_.mesh.tets.nodes[t];
-    return {lattice_.points[nodes[0]], lattice_.points[nodes[1]], lattice_.points[nodes[2]], lattice_.points[nodes[3]]};
+    return {lattice_.points[nodes[0]], lattice_.points[nodes[1]], lattice_.points[nodes[2]],
+            lattice_.points[nodes[3]]};
   }
 
-  /// |S1| and |S1 n S2| of every material by exact voxel-in-tet counting; on the way, the red tets that hold an
-  /// uncovered boundary voxel.
+  /// |S1| and |S1 n S2| of every material by exact voxel-in-tet counting; on the way, the red tets that hold
+  /// an uncovered boundary voxel.
   void measure_fidelity() {
     const CandidateMesh& mesh = result_.mesh;
     marked_.assign(lattice_.reds.size(), 0);
@@ -138,7 +142,9 @@ class Refiner {
     std::atomic_ref<std::uint8_t>(marked_[result_.mesh.tets.parent[t]]).store(1, std::memory_order_relaxed);
   }
 
-  [[nodiscard]] int level_of(std::size_t t) const { return lattice_.reds[result_.mesh.tets.parent[t]].level; }
+  [[nodiscard]] int level_of(std::size_t t) const {
+    return lattice_.reds[result_.mesh.tets.parent[t]].level;
+  }
   [[nodiscard]] bool may_split_for_fidelity(std::size_t t) const {
     return level_of(t) < lattice_.frame.max_level &&
            lattice_.frame.spacing_mm(level_of(t) + 1) >= options_.finest_spacing_mm * (1 - 1e-9);
@@ -158,14 +164,16 @@ class Refiner {
     }
     std::size_t can_split = 0;
     for (std::size_t r = 0; r < marked_.size(); ++r) {
-      can_split += static_cast<std::size_t>(marked_[r] != 0 && lattice_.reds[r].level < lattice_.frame.max_level);
+      can_split +=
+          static_cast<std::size_t>(marked_[r] != 0 && lattice_.reds[r].level < lattice_.frame.max_level);
     }
     return can_split;
   }
 
-  /// The paper's criterion. The signed distance of material m is positive in its voxels, zero on its boundary voxels and
-  /// negative in all others, so "it changes sign between the centroid and a vertex" is "one of the two lies in a voxel
-  /// of m and the other does not": a look-up in the image decides it, no distance map is needed.
+  /// The paper's criterion. The signed distance of material m is positive in its voxels, zero on its boundary
+  /// voxels and negative in all others, so "it changes sign between the centroid and a vertex" is "one of the
+  /// two lies in a voxel of m and the other does not": a look-up in the image decides it, no distance map is
+  /// needed.
   void mark_by_distance_sign(const std::vector<std::uint8_t>& unmet) {
     std::vector<MaterialId> at_vertex(points_.size());
 #pragma omp parallel for schedule(static, 4096)
@@ -177,15 +185,17 @@ class Refiner {
     for (std::size_t t = 0; t < tets.size(); ++t) {
       const MaterialId here = centroid_material_[t];
       for (const VertexId v : tets.nodes[t]) {
-        if (at_vertex[v] != here && (unmet[here] != 0 || unmet[at_vertex[v]] != 0) && may_split_for_fidelity(t)) {
+        if (at_vertex[v] != here && (unmet[here] != 0 || unmet[at_vertex[v]] != 0) &&
+            may_split_for_fidelity(t)) {
           mark_tet(t);
         }
       }
     }
   }
 
-  /// A structure that passes between the centroids and vertices of coarse tets changes no sign, yet it is missing. So
-  /// the tets that hold voxels of an unmet material but are not of it are split as well (the paper's ancestor did so).
+  /// A structure that passes between the centroids and vertices of coarse tets changes no sign, yet it is
+  /// missing. So the tets that hold voxels of an unmet material but are not of it are split as well (the
+  /// paper's ancestor did so).
   void mark_misjudged(const std::vector<std::uint8_t>& unmet) {
     const CandidateMesh& mesh = result_.mesh;
 #pragma omp parallel for schedule(dynamic, 512)
@@ -214,14 +224,18 @@ class Refiner {
     for (const MaterialFidelity& f : result_.fidelity) {
       if (!f.met()) {
         std::snprintf(text, sizeof(text),
-                      "label %d: fidelity %.3f not met (F1 = %.4f, F2 = %.4f): the lattice may not be finer than %.3g mm", f.label,
-                      f.wanted, f.f1(), f.f2(), options_.finest_spacing_mm);
+                      "label %d: fidelity %.3f not met (F1 = %.4f, F2 = %.4f): the lattice may not be finer "
+                      "than %.3g mm",
+                      f.label, f.wanted, f.f1(), f.f2(), options_.finest_spacing_mm);
         result_.warnings.emplace_back(text);
       }
     }
     if (result_.uncovered_voxels > 0) {
-      std::snprintf(text, sizeof(text), "%zu boundary voxels lie farther than %.3g mm from the interface at the finest spacing %.3g mm",
-                    result_.uncovered_voxels, options_.max_distance_mm, lattice_.frame.spacing_mm(lattice_.frame.max_level));
+      std::snprintf(
+          text, sizeof(text),
+          "%zu boundary voxels lie farther than %.3g mm from the interface at the finest spacing %.3g mm",
+          result_.uncovered_voxels, options_.max_distance_mm,
+          lattice_.frame.spacing_mm(lattice_.frame.max_level));
       result_.warnings.emplace_back(text);
     }
   }

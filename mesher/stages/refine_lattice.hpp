@@ -1,5 +1,6 @@
-// Stage "Adaptive refinement" (paper, section "Adaptive Lattice Refinement"): rounds of red-green subdivision until every
-// material meets its fidelity, with the candidate mesh selected in every round, so that what is judged is what is kept.
+// Stage "Adaptive refinement" (paper, section "Adaptive Lattice Refinement"): rounds of red-green subdivision
+// until every material meets its fidelity, with the candidate mesh selected in every round, so that what is
+// judged is what is kept.
 #pragma once
 
 #include <functional>
@@ -14,14 +15,16 @@
 namespace cbc3d {
 
 struct RefineOptions {
-  double fidelity = 0.95;                      ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
-  std::map<Label, double> material_fidelity;   ///< F of single labels, in place of the global one
-  double max_distance_mm = 0;                  ///< > 0: refine also where a boundary voxel has no interface vertex so near
-  double finest_spacing_mm = 1;                ///< the fidelity criterion splits no tet below this lattice spacing, mm
-  int max_rounds = 40;                         ///< a bound that is never reached unless something is wrong
+  double fidelity = 0.95;                     ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
+  std::map<Label, double> material_fidelity;  ///< F of single labels, in place of the global one
+  double max_distance_mm = 0;    ///< > 0: refine also where a boundary voxel has no interface vertex so near
+  double finest_spacing_mm = 0;  ///< the fidelity criterion splits no tet below this lattice spacing, mm;
+                                 ///< 0: the smallest voxel spacing (the distance criterion: a quarter of it)
+  int max_rounds = 40;           ///< a bound that is never reached unless something is wrong
 };
 
-/// How well the sub-mesh of one material matches its voxels. S1: voxels in the sub-mesh, S2: voxels of the material.
+/// How well the sub-mesh of one material matches its voxels. S1: voxels in the sub-mesh, S2: voxels of the
+/// material.
 struct MaterialFidelity {
   MaterialId material = 0;
   Label label = 0;
@@ -49,13 +52,14 @@ struct CandidateMesh {
 
 struct RefineResult {
   CandidateMesh mesh;
-  std::vector<MaterialFidelity> fidelity;   ///< one a labelled material
-  std::size_t uncovered_voxels = 0;         ///< boundary voxels beyond max_distance_mm that could not be reached
+  std::vector<MaterialFidelity> fidelity;  ///< one a labelled material
+  std::size_t uncovered_voxels = 0;  ///< boundary voxels beyond max_distance_mm that could not be reached
   int rounds = 0;
-  std::vector<std::string> warnings;        ///< which materials fall short, and why the rounds ended
+  std::vector<std::string> warnings;  ///< which materials fall short, and why the rounds ended
 };
 
-/// Refines `lattice` in place. `on_round(round, tets)` is told of each round. Same result at any thread count.
+/// Refines `lattice` in place. `on_round(round, tets)` is told of each round. Same result at any thread
+/// count.
 RefineResult refine_lattice(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
                             const std::function<void(int round, std::size_t tets)>& on_round);
 

@@ -75,12 +75,13 @@ class Selector {
 
 }  // namespace
 
-std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours, const std::vector<std::uint32_t>& rank,
-                             std::vector<MaterialId>& materials) {
+std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours,
+                             const std::vector<std::uint32_t>& rank, std::vector<MaterialId>& materials) {
   return Selector(neighbours, rank, materials).run();
 }
 
-std::vector<std::uint32_t> rank_by_size(const LabelImage& image, const std::vector<std::size_t>& voxels_per_material) {
+std::vector<std::uint32_t> rank_by_size(const LabelImage& image,
+                                        const std::vector<std::size_t>& voxels_per_material) {
   std::vector<std::size_t> first_voxel(voxels_per_material.size(), image.voxels.size());
   for (std::size_t v = image.voxels.size(); v-- > 0;) {
     first_voxel[image.voxels[v]] = v;

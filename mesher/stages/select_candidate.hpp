@@ -1,5 +1,5 @@
-// Stage "Candidate mesh selection" (paper, section "Adaptive Lattice Refinement"): relabels tets so that the surfaces
-// are fit for deformation.
+// Stage "Candidate mesh selection" (paper, section "Adaptive Lattice Refinement"): relabels tets so that the
+// surfaces are fit for deformation.
 #pragma once
 
 #include <vector>
@@ -10,17 +10,19 @@
 namespace cbc3d {
 
 /// Relabels tets until
-///   - no labelled tet has more than one face towards background (the outside of the lattice counts as background);
+///   - no labelled tet has more than one face towards background (the outside of the lattice counts as
+///   background);
 ///   - no tet would lose interface faces by taking over the material of most of its neighbours.
-/// Ties between two labelled materials go to the one with fewer tets (so that thin structures survive), whatever their
-/// numbers; ties with background go to background, as the paper's rule asks. Every step either removes interface faces
-/// or moves a tet to the preferred side of a tie, so the sweeps end.
-/// `rank[m]`: preference of material m in ties, higher wins; see rank_by_size. Returns how many tets were relabelled.
-std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours, const std::vector<std::uint32_t>& rank,
-                             std::vector<MaterialId>& materials);
+/// Ties between two labelled materials go to the one with fewer tets (so that thin structures survive),
+/// whatever their numbers; ties with background go to background, as the paper's rule asks. Every step either
+/// removes interface faces or moves a tet to the preferred side of a tie, so the sweeps end. `rank[m]`:
+/// preference of material m in ties, higher wins; see rank_by_size. Returns how many tets were relabelled.
+std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours,
+                             const std::vector<std::uint32_t>& rank, std::vector<MaterialId>& materials);
 
-/// Ranks for select_candidate from the voxel counts: background highest, then the smaller the material the higher.
-/// Equal counts rank by the material's first voxel in raster order, not by its label value.
-std::vector<std::uint32_t> rank_by_size(const LabelImage& image, const std::vector<std::size_t>& voxels_per_material);
+/// Ranks for select_candidate from the voxel counts: background highest, then the smaller the material the
+/// higher. Equal counts rank by the material's first voxel in raster order, not by its label value.
+std::vector<std::uint32_t> rank_by_size(const LabelImage& image,
+                                        const std::vector<std::size_t>& voxels_per_material);
 
 }  // namespace cbc3d

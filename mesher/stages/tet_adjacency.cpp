@@ -52,9 +52,13 @@ FaceBuckets bucket_faces(const TetNodes& tets, std::size_t vertex_count) {
 /// Pairs equal faces of one bucket. Buckets are small (a few dozen), so each is sorted on its own.
 bool match_bucket(FaceEntry* begin, FaceEntry* end, std::vector<std::array<TetId, 4>>& neighbours) {
   std::sort(begin, end, [](const FaceEntry& a, const FaceEntry& b) {
-    return a.second != b.second ? a.second < b.second : a.third != b.third ? a.third < b.third : a.tet_and_node < b.tet_and_node;
+    return a.second != b.second ? a.second < b.second
+           : a.third != b.third ? a.third < b.third
+                                : a.tet_and_node < b.tet_and_node;
   });
-  const auto same = [](const FaceEntry& a, const FaceEntry& b) { return a.second == b.second && a.third == b.third; };
+  const auto same = [](const FaceEntry& a, const FaceEntry& b) {
+    return a.second == b.second && a.third == b.third;
+  };
   for (FaceEntry* face = begin; face + 1 < end; ++face) {
     if (same(face[0], face[1])) {
       if (face + 2 < end && same(face[1], face[2])) {

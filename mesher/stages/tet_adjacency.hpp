@@ -15,11 +15,13 @@ inline constexpr TetId kNoTet = 0xFFFFFFFFU;
 using TetNodes = std::vector<std::array<VertexId, 4>>;
 
 /// For each tet and node n: the tet across the face opposite to node n, kNoTet on the outside.
-/// Linear in the tets, parallel. Throws JobError when a face has more than two tets (the mesh is not conforming).
+/// Linear in the tets, parallel. Throws JobError when a face has more than two tets (the mesh is not
+/// conforming).
 std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size_t vertex_count);
 
 /// The nodes of the face opposite to node n, counter-clockwise seen from outside a positive tet.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetFace = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetFace = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// Tets around each vertex in compressed rows: tets[first[v]] ... tets[first[v + 1] - 1], ascending.
 struct VertexTets {

@@ -21,7 +21,8 @@ VoxelRaster::VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice) {
     Axis& axis = axes_[static_cast<std::size_t>(d)];
     axis.centre.resize(static_cast<std::size_t>(image.size[static_cast<std::size_t>(d)]));
     for (std::size_t i = 0; i < axis.centre.size(); ++i) {
-      axis.centre[i] = std::llround((static_cast<double>(i) * image.spacing_mm[d] - lattice.origin_mm[d]) * scale);
+      axis.centre[i] =
+          std::llround((static_cast<double>(i) * image.spacing_mm[d] - lattice.origin_mm[d]) * scale);
     }
     axis.inverse_step = 1 / (image.spacing_mm[d] * scale);
   }
@@ -40,7 +41,8 @@ int VoxelRaster::Axis::first_at_or_after(Fixed position) const {
   return i;
 }
 
-VoxelRaster::HalfSpace VoxelRaster::half_space(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+VoxelRaster::HalfSpace VoxelRaster::half_space(const LatticePoint& a, const LatticePoint& b,
+                                               const LatticePoint& c) {
   const std::array<Fixed, 3> u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   const std::array<Fixed, 3> v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
   HalfSpace side{};
@@ -63,7 +65,8 @@ std::array<VoxelRaster::HalfSpace, 4> VoxelRaster::half_spaces(const std::array<
 bool VoxelRaster::clip_row(const std::array<HalfSpace, 4>& sides, Fixed y, Fixed z, Fixed& low, Fixed& high) {
   for (const HalfSpace& side : sides) {
     const auto& [nx, ny, nz] = side.normal;
-    const Fixed rest = ny * y + nz * z - side.offset;  // inside: nx * x + rest > 0, or = 0 and shifted inwards
+    const Fixed rest =
+        ny * y + nz * z - side.offset;  // inside: nx * x + rest > 0, or = 0 and shifted inwards
     if (nx > 0) {
       low = std::max(low, ceil_div(-rest, nx));  // the shift along +x is inwards: equality counts
     } else if (nx < 0) {

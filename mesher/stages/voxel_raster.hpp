@@ -1,8 +1,8 @@
 // Exact enumeration of the voxels whose centres lie in a lattice tet.
 //
-// Voxel centres are rounded once to a fixed-point grid of 2^-16 lattice units; from there on all arithmetic is in
-// integers. A centre that falls on a face, edge or vertex is decided by the same infinitesimal shift (e, e^2, e^3) for
-// every tet, so each voxel belongs to exactly one tet of a conforming mesh.
+// Voxel centres are rounded once to a fixed-point grid of 2^-16 lattice units; from there on all arithmetic
+// is in integers. A centre that falls on a face, edge or vertex is decided by the same infinitesimal shift
+// (e, e^2, e^3) for every tet, so each voxel belongs to exactly one tet of a conforming mesh.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +66,8 @@ void VoxelRaster::for_each_row(const std::array<LatticePoint, 4>& tet, Row&& row
   const int j_begin = axes_[1].first_at_or_after(low[1]);
   const int j_end = axes_[1].first_at_or_after(high[1]);
   int k = axes_[2].first_at_or_after(low[2]);
-  if (k >= k_end || j_begin >= j_end || axes_[0].first_at_or_after(low[0]) >= axes_[0].first_at_or_after(high[0])) {
+  if (k >= k_end || j_begin >= j_end ||
+      axes_[0].first_at_or_after(low[0]) >= axes_[0].first_at_or_after(high[0])) {
     return;
   }
   const std::array<HalfSpace, 4> sides = half_spaces(tet);
@@ -74,8 +75,8 @@ void VoxelRaster::for_each_row(const std::array<LatticePoint, 4>& tet, Row&& row
     for (int j = j_begin; j < j_end; ++j) {
       Fixed x_low = low[0];
       Fixed x_high = high[0];
-      if (clip_row(sides, axes_[1].centre[static_cast<std::size_t>(j)], axes_[2].centre[static_cast<std::size_t>(k)], x_low,
-                   x_high)) {
+      if (clip_row(sides, axes_[1].centre[static_cast<std::size_t>(j)],
+                   axes_[2].centre[static_cast<std::size_t>(k)], x_low, x_high)) {
         const int i_begin = axes_[0].first_at_or_after(x_low);
         const int i_end = axes_[0].first_at_or_after(x_high);
         if (i_begin < i_end) {

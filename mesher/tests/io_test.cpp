@@ -21,7 +21,9 @@ class Files : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
   [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
-  void write(const std::string& name, const std::string& bytes) const { std::ofstream(file(name), std::ios::binary) << bytes; }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(file(name), std::ios::binary) << bytes;
+  }
   [[nodiscard]] std::string why_not_read(const std::string& name) const {
     try {
       read_label_image(file(name));
@@ -71,8 +73,10 @@ TEST_F(Files, InrimageIsReadInEveryByteOrder) {
     text.resize(252, '\n');
     return text + "##}\n";
   };
-  write("a.inr", header("TYPE=unsigned fixed\nPIXSIZE=8 bits\nCPU=decm\n") + std::string("\0\x01\x02\x02", 4));
-  write("b.inr", header("TYPE=unsigned fixed\nPIXSIZE=16 bits\nCPU=sun\n") + std::string("\0\0\0\x01\0\x02\0\x02", 8));
+  write("a.inr",
+        header("TYPE=unsigned fixed\nPIXSIZE=8 bits\nCPU=decm\n") + std::string("\0\x01\x02\x02", 4));
+  write("b.inr",
+        header("TYPE=unsigned fixed\nPIXSIZE=16 bits\nCPU=sun\n") + std::string("\0\0\0\x01\0\x02\0\x02", 8));
   for (const char* name : {"a.inr", "b.inr"}) {
     const LabelImage image = read_label_image(file(name));
     EXPECT_EQ(image.labels, (std::vector<Label>{0, 1, 2})) << name;
@@ -93,12 +97,15 @@ TEST_F(Files, BadImagesAreRefusedWithOneLine) {
   EXPECT_NE(why_not_read("text.nii"), "");
   write("flat.nrrd", nrrd("type: uchar\ndimension: 2\nsizes: 2 2\n", "abcd"));
   EXPECT_NE(why_not_read("flat.nrrd").find("2-dimensional"), std::string::npos);
-  write("colour.nrrd", nrrd("type: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain domain\n", std::string(24, 'a')));
+  write("colour.nrrd",
+        nrrd("type: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain domain\n",
+             std::string(24, 'a')));
   EXPECT_NE(why_not_read("colour.nrrd").find("3 components"), std::string::npos);
   write("empty.nrrd", nrrd("type: uchar\ndimension: 3\nsizes: 2 2 2\n", std::string(8, '\0')));
   EXPECT_NE(why_not_read("empty.nrrd").find("background"), std::string::npos);
   const float half[8] = {0, 1, 2, 0.5F, 0, 0, 1, 1};
-  write("half.nrrd", nrrd("type: float\ndimension: 3\nsizes: 2 2 2\n", std::string(reinterpret_cast<const char*>(half), sizeof(half))));
+  write("half.nrrd", nrrd("type: float\ndimension: 3\nsizes: 2 2 2\n",
+                          std::string(reinterpret_cast<const char*>(half), sizeof(half))));
   EXPECT_NE(why_not_read("half.nrrd").find("0.5"), std::string::npos);
   write("short.nrrd", nrrd("type: uchar\ndimension: 3\nsizes: 20 20 20\n", "abc"));
   EXPECT_NE(why_not_read("short.nrrd"), "");
@@ -106,7 +113,8 @@ TEST_F(Files, BadImagesAreRefusedWithOneLine) {
 
 TEST_F(Files, FloatImagesWithWholeLabelsAreRead) {
   const float whole[8] = {0, 1, 2, 2, 0, 0, 1, 1};
-  write("whole.nrrd", nrrd("type: float\ndimension: 3\nsizes: 2 2 2\n", std::string(reinterpret_cast<const char*>(whole), sizeof(whole))));
+  write("whole.nrrd", nrrd("type: float\ndimension: 3\nsizes: 2 2 2\n",
+                           std::string(reinterpret_cast<const char*>(whole), sizeof(whole))));
   EXPECT_EQ(read_label_image(file("whole.nrrd")).labels, (std::vector<Label>{0, 1, 2}));
 }
 

@@ -1,4 +1,5 @@
-// Lattice, red-green subdivision and exact voxel counting: known angles, invariants on seeded random refinements.
+// Lattice, red-green subdivision and exact voxel counting: known angles, invariants on seeded random
+// refinements.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -47,8 +48,9 @@ AngleRange dihedral_range(const Lattice& lattice, const LatticeTets& tets) {
 double volume(const Lattice& lattice, const LatticeTets& tets) {
   double sum = 0;
   for (const auto& n : tets.nodes) {
-    const double six = six_volumes(lattice.frame.local(lattice.points[n[0]]), lattice.frame.local(lattice.points[n[1]]),
-                                   lattice.frame.local(lattice.points[n[2]]), lattice.frame.local(lattice.points[n[3]]));
+    const double six =
+        six_volumes(lattice.frame.local(lattice.points[n[0]]), lattice.frame.local(lattice.points[n[1]]),
+                    lattice.frame.local(lattice.points[n[2]]), lattice.frame.local(lattice.points[n[3]]));
     EXPECT_GT(six, 0);
     sum += six / 6;
   }
@@ -62,7 +64,9 @@ double hull_area(const Lattice& lattice, const LatticeTets& tets) {
   for (std::size_t t = 0; t < tets.size(); ++t) {
     for (std::size_t n = 0; n < 4; ++n) {
       if (neighbours[t][n] == kNoTet) {
-        const auto at = [&](std::size_t c) { return lattice.frame.local(lattice.points[tets.nodes[t][kTetFace[n][c]]]); };
+        const auto at = [&](std::size_t c) {
+          return lattice.frame.local(lattice.points[tets.nodes[t][kTetFace[n][c]]]);
+        };
         area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
       }
     }
@@ -93,7 +97,8 @@ TEST(BccLattice, HasTheDihedralAnglesOfTheBccTet) {
   const AngleRange range = dihedral_range(lattice, tets);
   EXPECT_NEAR(range.low, 60, 1e-9);
   EXPECT_NEAR(range.high, 90, 1e-9);
-  EXPECT_NEAR(volume(lattice, tets), static_cast<double>(tets.size()) * 125 / 12, 1e-6);  // each tet: a^3 / 12
+  EXPECT_NEAR(volume(lattice, tets), static_cast<double>(tets.size()) * 125 / 12,
+              1e-6);  // each tet: a^3 / 12
 }
 
 TEST(BccLattice, InnerVerticesHave24TetsAnd14Edges) {
@@ -123,8 +128,8 @@ TEST(RedGreen, RandomRefinementStaysConformingWithinTheTemplatesAngles) {
     EXPECT_GE(range.low, 29.999999);  // the paper: 30 and 116.5 degrees
     EXPECT_LE(range.high, 116.5651);
     EXPECT_NEAR(volume(lattice, tets), before, 1e-9 * before);
-    // Conforming: no face has more than two tets (tet_neighbours would throw), and faces with one tet lie on the hull,
-    // whose area refinement does not change; a T-junction would add inner ones.
+    // Conforming: no face has more than two tets (tet_neighbours would throw), and faces with one tet lie on
+    // the hull, whose area refinement does not change; a T-junction would add inner ones.
     EXPECT_NEAR(hull_area(lattice, tets), hull_before, 1e-9 * hull_before);
     EXPECT_GT(std::accumulate(tets.green.begin(), tets.green.end(), 0), 100);
   }
@@ -133,26 +138,30 @@ TEST(RedGreen, RandomRefinementStaysConformingWithinTheTemplatesAngles) {
 TEST(VoxelRaster, EveryVoxelLiesInExactlyOneTet) {
   // Spacings for which many voxel centres fall exactly on lattice faces, and one for which none does.
   for (const double spacing : {1.0, 0.5, 0.73}) {
-    const LabelImage image = testing::make_image({20, 18, 16}, {spacing, spacing, 2 * spacing}, 1, [](const Vec3&) { return 1; });
+    const LabelImage image =
+        testing::make_image({20, 18, 16}, {spacing, spacing, 2 * spacing}, 1, [](const Vec3&) { return 1; });
     Lattice lattice = lattice_of(image, 8 * spacing, spacing / 2);
     refine_at_random(lattice, 3, 7, 10);
     const LatticeTets tets = extract_tets(lattice);
     const VoxelRaster raster(image.frame, lattice.frame);
     std::vector<int> hits(image.voxels.size(), 0);
     for (const auto& n : tets.nodes) {
-      raster.for_each_row({lattice.points[n[0]], lattice.points[n[1]], lattice.points[n[2]], lattice.points[n[3]]},
-                          [&](int j, int k, int begin, int end) {
-                            for (int i = begin; i < end; ++i) {
-                              ++hits[image.frame.offset(i, j, k)];
-                            }
-                          });
+      raster.for_each_row(
+          {lattice.points[n[0]], lattice.points[n[1]], lattice.points[n[2]], lattice.points[n[3]]},
+          [&](int j, int k, int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+              ++hits[image.frame.offset(i, j, k)];
+            }
+          });
     }
-    EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), static_cast<std::ptrdiff_t>(hits.size())) << "spacing " << spacing;
+    EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), static_cast<std::ptrdiff_t>(hits.size()))
+        << "spacing " << spacing;
   }
 }
 
 TEST(VoxelRaster, AgreesWithAPointInTetTest) {
-  const LabelImage image = testing::make_image({16, 16, 16}, {0.9, 1.1, 1.3}, 1, [](const Vec3&) { return 1; });
+  const LabelImage image =
+      testing::make_image({16, 16, 16}, {0.9, 1.1, 1.3}, 1, [](const Vec3&) { return 1; });
   Lattice lattice = lattice_of(image, 7.3, 1);
   refine_at_random(lattice, 2, 3, 8);
   const LatticeTets tets = extract_tets(lattice);
@@ -162,10 +171,11 @@ TEST(VoxelRaster, AgreesWithAPointInTetTest) {
     std::array<Vec3, 4> p;
     for (std::size_t c = 0; c < 4; ++c) p[c] = lattice.frame.local(lattice.points[n[c]]);
     std::vector<std::uint8_t> in(image.voxels.size(), 0);
-    raster.for_each_row({lattice.points[n[0]], lattice.points[n[1]], lattice.points[n[2]], lattice.points[n[3]]},
-                        [&](int j, int k, int begin, int end) {
-                          for (int i = begin; i < end; ++i) in[image.frame.offset(i, j, k)] = 1;
-                        });
+    raster.for_each_row(
+        {lattice.points[n[0]], lattice.points[n[1]], lattice.points[n[2]], lattice.points[n[3]]},
+        [&](int j, int k, int begin, int end) {
+          for (int i = begin; i < end; ++i) in[image.frame.offset(i, j, k)] = 1;
+        });
     for (std::size_t v = 0; v < in.size(); ++v) {
       const Index3 at = image.frame.index_of(v);
       const Vec3 x = image.frame.local_centre(at[0], at[1], at[2]);

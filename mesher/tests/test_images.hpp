@@ -28,17 +28,19 @@ inline LabelImage make_image(const Index3& size, const Vec3& spacing_mm, int mat
 }
 
 inline Vec3 centre_of(const LabelImage& image) {
-  return {0.5 * (image.frame.size[0] - 1) * image.frame.spacing_mm.x, 0.5 * (image.frame.size[1] - 1) * image.frame.spacing_mm.y,
+  return {0.5 * (image.frame.size[0] - 1) * image.frame.spacing_mm.x,
+          0.5 * (image.frame.size[1] - 1) * image.frame.spacing_mm.y,
           0.5 * (image.frame.size[2] - 1) * image.frame.spacing_mm.z};
 }
 
 /// A ball of material 1 with, when core_mm > 0, a concentric core of material 2.
 inline LabelImage ball_image(int size, double spacing_mm, double radius_mm, double core_mm = 0) {
   const double c = 0.5 * (size - 1) * spacing_mm;
-  return make_image({size, size, size}, {spacing_mm, spacing_mm, spacing_mm}, core_mm > 0 ? 2 : 1, [=](const Vec3& p) {
-    const double r = (p - Vec3{c, c, c}).norm();
-    return r <= core_mm ? 2 : r <= radius_mm ? 1 : 0;
-  });
+  return make_image({size, size, size}, {spacing_mm, spacing_mm, spacing_mm}, core_mm > 0 ? 2 : 1,
+                    [=](const Vec3& p) {
+                      const double r = (p - Vec3{c, c, c}).norm();
+                      return r <= core_mm ? 2 : r <= radius_mm ? 1 : 0;
+                    });
 }
 
 /// Seeded noise of the given density over two materials, with an empty rim.
@@ -62,7 +64,8 @@ inline ImageFrame oblique(ImageFrame frame, bool flipped) {
   const Mat3 rx{{Vec3{1, 0, 0}, Vec3{0, std::cos(b), -std::sin(b)}, Vec3{0, std::sin(b), std::cos(b)}}};
   frame.direction = rz * rx;
   if (flipped) {
-    frame.direction = Mat3::from_columns(-frame.direction.column(0), frame.direction.column(1), frame.direction.column(2));
+    frame.direction =
+        Mat3::from_columns(-frame.direction.column(0), frame.direction.column(1), frame.direction.column(2));
   }
   frame.origin_mm = {-31, 12, 155};
   return frame;
