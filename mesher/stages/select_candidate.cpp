@@ -13,6 +13,7 @@ class Selector {
       : neighbours_(neighbours), rank_(rank), materials_(materials) {}
 
   std::size_t run() {
+    fill_notches();
     std::vector<TetId> queue(materials_.size());
     std::iota(queue.begin(), queue.end(), TetId{0});
     std::vector<TetId> next;
@@ -40,6 +41,36 @@ class Selector {
   }
 
  private:
+  /// Background is inspected first, as in the paper, where no label is final yet: a background tet with two
+  /// or more labelled neighbours goes to one of them. Without this step the rule for labelled tets would only
+  /// ever remove. All are judged by the labels as they were before, so the outcome does not depend on the
+  /// order.
+  void fill_notches() {
+    const std::vector<MaterialId> before = materials_;
+#pragma omp parallel for schedule(static, 4096)
+    for (std::size_t t = 0; t < before.size(); ++t) {
+      if (before[t] != kBackground) {
+        continue;
+      }
+      std::array<MaterialId, 4> around{};
+      for (std::size_t n = 0; n < 4; ++n) {
+        around[n] = neighbours_[t][n] == kNoTet ? kBackground : before[neighbours_[t][n]];
+      }
+      MaterialId best = kBackground;
+      std::ptrdiff_t best_faces = 0;
+      for (const MaterialId m : around) {
+        const auto faces = std::count(around.begin(), around.end(), m);
+        if (m != kBackground && (faces > best_faces || (faces == best_faces && rank_[m] > rank_[best]))) {
+          best = m;
+          best_faces = faces;
+        }
+      }
+      if (std::count(around.begin(), around.end(), kBackground) <= 2) {
+        materials_[t] = best;
+      }
+    }
+  }
+
   [[nodiscard]] MaterialId material_across(TetId neighbour) const {
     return neighbour == kNoTet ? kBackground : materials_[neighbour];
   }
