@@ -29,7 +29,6 @@ struct MeshCommand {
   std::string report_file;
   std::string dump_stages;
   int threads = 0;
-  std::uint64_t seed = 1;
   bool quiet = false;
   MeshImageOptions options;
 };
@@ -43,6 +42,8 @@ const Names<Connectivity> kConnectivityNames = {{"vertex", Connectivity::vertex}
                                                 {"no", Connectivity::no}};
 const Names<TargetPosition> kTargetPositionNames = {{"voxel-centre", TargetPosition::voxel_centre},
                                                     {"voxel-faces", TargetPosition::voxel_faces}};
+const Names<NoisyVoxels> kNoisyVoxelNames = {
+    {"none", NoisyVoxels::none}, {"holes", NoisyVoxels::holes}, {"specks", NoisyVoxels::specks}, {"both", NoisyVoxels::both}};
 const Names<OnFailure> kOnFailureNames = {{"stop", OnFailure::stop}, {"recover", OnFailure::recover}};
 
 template <typename Enum>
@@ -82,6 +83,9 @@ nlohmann::json options_json(const MeshCommand& c, const MeshImageReport& report)
     material[std::to_string(label)] = f;
   }
   return {{"preset", c.preset},
+          {"relabel_noise", name_of(kNoisyVoxelNames, o.clean.relabel_noise)},
+          {"region_tolerance", o.clean.region_tolerance},
+          {"manifold_voxels", o.clean.manifold_voxels},
           {"lattice_spacing_mm", report.lattice_spacing_mm},
           {"fidelity", o.refine.fidelity},
           {"material_fidelity", material},
@@ -94,7 +98,7 @@ nlohmann::json options_json(const MeshCommand& c, const MeshImageReport& report)
           {"young_pa", o.deform.elasticity.young_pa},
           {"poisson", o.deform.elasticity.poisson},
           {"min_dihedral_deg", o.deform.min_dihedral_deg},
-          {"seed", c.seed},
+          {"seed", o.clean.seed},
           {"threads", c.threads}};
 }
 
@@ -128,6 +132,23 @@ nlohmann::json deformation_json(const MeshImageReport& report) {
           {"iterations", iterations}};
 }
 
+nlohmann::json cleaning_json(const CleanReport& clean) {
+  nlohmann::json labels = nlohmann::json::array();
+  for (const LabelChange& change : clean.labels) {
+    labels.push_back({{"label", change.label}, {"voxels_before", change.voxels_before}, {"voxels_after", change.voxels_after}});
+  }
+  return {{"holes_filled", clean.noise.holes_filled},
+          {"specks_relabelled", clean.noise.specks_relabelled},
+          {"regions_removed", clean.removed.regions_removed},
+          {"voxels_of_regions_removed", clean.removed.voxels_removed},
+          {"vertex_contacts", clean.contacts.vertex_contacts},
+          {"edge_contacts", clean.contacts.edge_contacts},
+          {"voxels_changed_for_contacts", clean.contacts.voxels_changed},
+          {"contact_rounds", clean.contacts.rounds},
+          {"regions", clean.regions.regions},
+          {"labels", labels}};
+}
+
 nlohmann::json report_json(const MeshCommand& command, const MeshImageReport& report, const Mesh& mesh) {
   nlohmann::json stages = nlohmann::json::object();
   for (const auto& [name, seconds] : report.stage_seconds) {
@@ -143,6 +164,7 @@ nlohmann::json report_json(const MeshCommand& command, const MeshImageReport& re
             {"pyramids", mesh.pyramids.size()},
             {"wedges", mesh.wedges.size()},
             {"hexes", mesh.hexes.size()}}},
+          {"cleaning", cleaning_json(report.clean)},
           {"refinement",
            {{"rounds", report.refine.rounds},
             {"finest_spacing_mm", report.finest_spacing_mm},
@@ -170,7 +192,7 @@ void run(MeshCommand& command) {
   }
   Progress progress(command.quiet);
   progress.step("reading " + command.image, 0);
-  const LabelImage image = read_label_image(command.image);
+  LabelImage image = read_label_image(command.image);
   auto& options = command.options;
   options = preset_options(command.preset, image.frame);
   for (const Override& apply : command.overrides) {
@@ -179,7 +201,7 @@ void run(MeshCommand& command) {
   options.dump_stages = command.dump_stages;
   parse_material_fidelity(command, image, options.refine.material_fidelity);
   MeshImageReport report;
-  const Mesh mesh = mesh_image(image, options, progress, report);
+  const Mesh mesh = mesh_image(std::move(image), options, progress, report);
   if (mesh.tets.size() == 0) {
     throw JobError("the mesh of '" + command.image +
                    "' is empty: no label is larger than the lattice; give a smaller --lattice-spacing");
@@ -238,6 +260,19 @@ void add_choice(CLI::App& app, MeshCommand& c, const std::string& name, const st
          },
          text)
       ->check(CLI::IsMember(allowed));
+}
+
+void add_cleaning_options(CLI::App& mesh, MeshCommand& c) {
+  add_choice(mesh, c, "--relabel-noise", "isolated voxels given their neighbours' label: none, holes, specks or both [none]",
+             kNoisyVoxelNames, [](MeshImageOptions& o) -> NoisyVoxels& { return o.clean.relabel_noise; });
+  add_override<double>(mesh, c, "--region-tolerance",
+                       "regions below this share of their label's voxels become background [quality: 0, paper: 1e-4]",
+                       [](MeshImageOptions& o) -> double& { return o.clean.region_tolerance; })
+      ->check(CLI::Range(0.0, 1.0));
+  mesh.add_flag_callback(
+      "--no-manifold-voxels",
+      [&c] { c.overrides.emplace_back([](MeshImageOptions& o) { o.clean.manifold_voxels = false; }); },
+      "leave voxels of a label that touch only by an edge or a vertex");
 }
 
 void add_lattice_options(CLI::App& mesh, MeshCommand& c) {
@@ -302,9 +337,11 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   mesh->add_option("--preset", command->preset,
                    "quality: our best so far; paper: the published method [quality]")
       ->check(CLI::IsMember(preset_names()));
+  add_cleaning_options(*mesh, *command);
   add_lattice_options(*mesh, *command);
   add_deformation_options(*mesh, *command);
-  mesh->add_option("--seed", command->seed, "seed of the choices made by hash [1]");
+  add_override<std::uint64_t>(*mesh, *command, "--seed", "seed of the choice among cleaning templates [1]",
+                              [](MeshImageOptions& o) -> std::uint64_t& { return o.clean.seed; });
   mesh->add_option("--report", command->report_file,
                    "JSON file with options, counts, fidelity, seconds and warnings");
   mesh->add_option("--dump-stages", command->dump_stages, "folder for the mesh after each stage");

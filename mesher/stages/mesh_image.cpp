@@ -1,7 +1,7 @@
 #include "mesher/stages/mesh_image.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <map>
 
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/stages/bcc_lattice.hpp"
@@ -84,26 +84,57 @@ BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOption
   return lattice;
 }
 
-void warn_of_lost_labels(const LabelImage& image, const MaterialMesh& mesh, MeshImageReport& report) {
+/// No label is dropped silently, and no region of one either.
+void warn_of_losses(const LabelImage& image, const MaterialMesh& mesh, MeshImageReport& report) {
   std::vector<std::uint8_t> there(image.material_count(), 0);
   for (const MaterialId m : mesh.materials) {
     there[m] = 1;
   }
+  struct Loss {
+    std::size_t regions = 0, lost_regions = 0, lost_voxels = 0;
+  };
+  std::map<Label, Loss> losses;
   const std::vector<std::size_t> voxels = image.voxels_per_material();
   for (std::size_t m = 1; m < there.size(); ++m) {
-    if (there[m] == 0) {
-      report.warnings.push_back(
-          "label " + std::to_string(image.labels[m]) + " (" + std::to_string(voxels[m]) +
-          " voxels) is not in the mesh; a smaller --lattice-spacing or --max-distance keeps it");
+    Loss& loss = losses[image.labels[m]];
+    ++loss.regions;
+    loss.lost_regions += there[m] == 0 ? 1 : 0;
+    loss.lost_voxels += there[m] == 0 ? voxels[m] : 0;
+  }
+  for (const auto& [label, loss] : losses) {
+    if (loss.lost_regions > 0) {
+      const std::string what = loss.lost_regions == loss.regions
+                                   ? "label " + std::to_string(label)
+                                   : std::to_string(loss.lost_regions) + " of " + std::to_string(loss.regions) +
+                                         " regions of label " + std::to_string(label);
+      report.warnings.push_back(what + " (" + std::to_string(loss.lost_voxels) +
+                                " voxels) not in the mesh; a smaller --lattice-spacing or --max-distance keeps more");
+    }
+  }
+}
+
+void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
+  if (clean.removed.regions_removed > 0) {
+    report.warnings.push_back(std::to_string(clean.removed.regions_removed) + " regions (" +
+                              std::to_string(clean.removed.voxels_removed) +
+                              " voxels) below --region-tolerance became background");
+  }
+  for (const LabelChange& change : clean.labels) {
+    if (change.voxels_before > 0 && change.voxels_after == 0) {
+      report.warnings.push_back("label " + std::to_string(change.label) + " (" + std::to_string(change.voxels_before) +
+                                " voxels) vanished in the cleaning; --relabel-noise none keeps it");
     }
   }
 }
 
 }  // namespace
 
-Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress,
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
                 MeshImageReport& report) {
   StageLog log(image, options, progress, report);
+
+  report.clean = log.run("image_cleaning", 0.01, [&] { return clean_image(image, options.clean, true); });
+  warn_of_cleaning(report.clean, report);
 
   Lattice lattice = log.run(
       "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
@@ -124,8 +155,8 @@ Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progre
     return discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
   });
   log.dump("2_candidate_mesh", mesh);
-  report.warnings = report.refine.warnings;
-  warn_of_lost_labels(image, mesh, report);
+  report.warnings.insert(report.warnings.end(), report.refine.warnings.begin(), report.refine.warnings.end());
+  warn_of_losses(image, mesh, report);
 
   report.deform = log.run("deformation", 0.55, [&] {
     return deform_mesh(mesh, image, options.deform, [&](int i) {

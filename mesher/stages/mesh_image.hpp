@@ -10,6 +10,7 @@
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 #include "mesher/core/progress.hpp"
+#include "mesher/stages/clean_image.hpp"
 #include "mesher/stages/deform_mesh.hpp"
 #include "mesher/stages/refine_lattice.hpp"
 
@@ -18,6 +19,7 @@ namespace cbc3d {
 struct MeshImageOptions {
   double lattice_spacing_mm =
       0;  ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
+  CleanOptions clean;
   RefineOptions refine;
   DeformOptions deform;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
@@ -29,14 +31,15 @@ struct MeshImageReport {
   std::vector<std::pair<std::string, double>>
       stage_seconds;  ///< in order; reading and writing files not included
   double seconds = 0;
+  CleanReport clean;
   RefineResult refine;  ///< without its mesh
   DeformReport deform;
   std::vector<std::string> warnings;
 };
 
-/// Meshes `image`; the mesh is in physical space and carries the image's label values. Throws InputError for
+/// Meshes `image` (which is cleaned in place, so hand it over if it is not needed any more); the mesh is in physical space and carries the image's label values. Throws InputError for
 /// options out of range. The same bytes come out at any thread count.
-Mesh mesh_image(const LabelImage& image, const MeshImageOptions& options, Progress& progress,
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
                 MeshImageReport& report);
 
 }  // namespace cbc3d

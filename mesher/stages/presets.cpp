@@ -11,6 +11,7 @@ std::vector<std::string> preset_names() {
 MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame) {
   MeshImageOptions options;
   if (name == "quality") {
+    options.clean.region_tolerance = 0;
     options.refine.max_distance_mm = 2 * frame.voxel_diagonal_mm();
     options.deform.target_position = TargetPosition::voxel_faces;
     options.deform.on_failure = OnFailure::recover;

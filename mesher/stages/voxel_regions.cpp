@@ -1,0 +1,213 @@
+#include "mesher/stages/voxel_regions.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace cbc3d {
+namespace {
+
+/// Voxels [begin, end) of one row with one labelled material.
+struct Run {
+  std::int32_t begin, end;
+  MaterialId material;
+};
+
+/// The labelled runs of the image, row by row, and the region that each belongs to.
+class Regions {
+ public:
+  explicit Regions(const LabelImage& image) : image_(image) {
+    collect_runs();
+    parent_.resize(runs_.size());
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    const auto rows_per_slice = static_cast<std::size_t>(image.frame.size[1]);
+    for (std::size_t row = 0; row + 1 < first_.size(); ++row) {
+      if (row % rows_per_slice != 0) {
+        join_rows(row - 1, row);
+      }
+      if (row >= rows_per_slice) {
+        join_rows(row - rows_per_slice, row);
+      }
+    }
+    number_regions();
+  }
+
+  struct Region {
+    MaterialId material;
+    std::size_t voxels;
+  };
+  [[nodiscard]] const std::vector<Region>& list() const { return regions_; }
+
+  /// Gives the voxels of every region r the material to[r].
+  void assign(const std::vector<MaterialId>& to, std::vector<MaterialId>& voxels) const {
+    const auto nx = static_cast<std::size_t>(image_.frame.size[0]);
+    const std::size_t rows = first_.size() - 1;
+#pragma omp parallel for schedule(static)
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t r = first_[row]; r < first_[row + 1]; ++r) {
+        const MaterialId material = to[parent_[r]];
+        if (material != runs_[r].material) {
+          std::fill(voxels.begin() + static_cast<std::ptrdiff_t>(row * nx) + runs_[r].begin,
+                    voxels.begin() + static_cast<std::ptrdiff_t>(row * nx) + runs_[r].end, material);
+        }
+      }
+    }
+  }
+
+ private:
+  void collect_runs() {
+    const std::size_t rows = static_cast<std::size_t>(image_.frame.size[1]) * static_cast<std::size_t>(image_.frame.size[2]);
+    first_.assign(rows + 1, 0);
+#pragma omp parallel for schedule(static)
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::size_t count = 0;
+      for_each_run(row, [&count](const Run&) { ++count; });
+      first_[row + 1] = count;
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    runs_.resize(first_.back());
+#pragma omp parallel for schedule(static)
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::size_t next = first_[row];
+      for_each_run(row, [&](const Run& run) { runs_[next++] = run; });
+    }
+  }
+
+  template <typename Action>
+  void for_each_run(std::size_t row, const Action& action) const {
+    const std::int32_t nx = image_.frame.size[0];
+    const MaterialId* voxels = image_.voxels.data() + row * static_cast<std::size_t>(nx);
+    for (std::int32_t i = 0; i < nx;) {
+      std::int32_t end = i + 1;
+      while (end < nx && voxels[end] == voxels[i]) {
+        ++end;
+      }
+      if (voxels[i] != kBackground) {
+        action(Run{i, end, voxels[i]});
+      }
+      i = end;
+    }
+  }
+
+  std::uint32_t root(std::uint32_t r) {
+    while (parent_[r] != r) {
+      parent_[r] = parent_[parent_[r]];
+      r = parent_[r];
+    }
+    return r;
+  }
+
+  /// Joins overlapping runs of the same material of two neighbouring rows; the earlier run stays the root.
+  void join_rows(std::size_t a, std::size_t b) {
+    std::size_t p = first_[a];
+    for (std::size_t q = first_[b]; q < first_[b + 1]; ++q) {
+      while (p < first_[a + 1] && runs_[p].end <= runs_[q].begin) {
+        ++p;
+      }
+      for (std::size_t s = p; s < first_[a + 1] && runs_[s].begin < runs_[q].end; ++s) {
+        if (runs_[s].material == runs_[q].material) {
+          const std::uint32_t u = root(static_cast<std::uint32_t>(s));
+          const std::uint32_t v = root(static_cast<std::uint32_t>(q));
+          parent_[std::max(u, v)] = std::min(u, v);
+        }
+      }
+    }
+  }
+
+  /// Regions are numbered by their first run; parent_ becomes the region of each run.
+  void number_regions() {
+    std::vector<std::uint32_t> number(runs_.size());
+    for (std::uint32_t r = 0; r < runs_.size(); ++r) {
+      const std::uint32_t top = root(r);
+      if (top == r) {
+        number[r] = static_cast<std::uint32_t>(regions_.size());
+        regions_.push_back({runs_[r].material, 0});
+      }
+      number[r] = number[top];
+      regions_[number[r]].voxels += static_cast<std::size_t>(runs_[r].end - runs_[r].begin);
+    }
+    parent_.swap(number);
+  }
+
+  const LabelImage& image_;
+  std::vector<std::size_t> first_;
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> parent_;
+  std::vector<Region> regions_;
+};
+
+struct MaterialSummary {
+  std::size_t voxels = 0;
+  std::size_t largest = 0;  // number of the largest region; the first of equals
+};
+
+std::vector<MaterialSummary> summarise(const LabelImage& image, const Regions& regions) {
+  std::vector<MaterialSummary> summary(image.material_count(), {0, std::numeric_limits<std::size_t>::max()});
+  const auto& list = regions.list();
+  for (std::size_t r = 0; r < list.size(); ++r) {
+    MaterialSummary& of = summary[list[r].material];
+    of.voxels += list[r].voxels;
+    if (of.largest == std::numeric_limits<std::size_t>::max() || list[r].voxels > list[of.largest].voxels) {
+      of.largest = r;
+    }
+  }
+  return summary;
+}
+
+std::vector<MaterialId> present_materials(const Regions& regions) {
+  std::vector<MaterialId> to;
+  for (const auto& region : regions.list()) {
+    to.push_back(region.material);
+  }
+  return to;
+}
+
+}  // namespace
+
+RegionReport remove_small_regions(LabelImage& image, double tolerance) {
+  const Regions regions(image);
+  const std::vector<MaterialSummary> summary = summarise(image, regions);
+  std::vector<MaterialId> to = present_materials(regions);
+  RegionReport report;
+  report.regions = to.size();
+  for (std::size_t r = 0; r < to.size(); ++r) {
+    const MaterialSummary& of = summary[to[r]];
+    const std::size_t voxels = regions.list()[r].voxels;
+    if (r != of.largest && static_cast<double>(voxels) < tolerance * static_cast<double>(of.voxels)) {
+      to[r] = kBackground;
+      ++report.regions_removed;
+      report.voxels_removed += voxels;
+    }
+  }
+  regions.assign(to, image.voxels);
+  return report;
+}
+
+RegionReport split_regions(LabelImage& image) {
+  const Regions regions(image);
+  const std::vector<MaterialSummary> summary = summarise(image, regions);
+  std::vector<MaterialId> to = present_materials(regions);
+  RegionReport report;
+  report.regions = to.size();
+  std::vector<std::size_t> others;
+  for (std::size_t r = 0; r < to.size(); ++r) {
+    if (r != summary[to[r]].largest) {
+      others.push_back(r);
+    }
+  }
+  std::stable_sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) { return regions.list()[a].voxels > regions.list()[b].voxels; });
+  for (const std::size_t r : others) {
+    if (image.labels.size() <= std::numeric_limits<MaterialId>::max()) {
+      const Label label = image.labels[to[r]];
+      to[r] = static_cast<MaterialId>(image.labels.size());
+      image.labels.push_back(label);
+      ++report.materials_added;
+    }
+  }
+  regions.assign(to, image.voxels);
+  return report;
+}
+
+}  // namespace cbc3d
