@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 
+#include "mesher/app/clean_command.hpp"
 #include "mesher/app/mesh_command.hpp"
 #include "mesher/core/error.hpp"
 
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
   int exit_code = cbc3d::kExitSuccess;
   try {
     cbc3d::add_mesh_command(app, exit_code);
+    cbc3d::add_clean_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -1,4 +1,5 @@
-// The paper's section "Image pre-processing": noisy voxels, disconnected regions, non-manifold voxel connectivity.
+// The paper's section "Image pre-processing": noisy voxels, disconnected regions, non-manifold voxel
+// connectivity.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,9 @@ namespace cbc3d {
 
 struct CleanOptions {
   NoisyVoxels relabel_noise = NoisyVoxels::none;  ///< which noisy voxels are relabelled
-  double region_tolerance = 1e-4;                 ///< regions smaller than this share of their material are removed; 0: none
-  bool manifold_voxels = true;                    ///< remove vertex and edge contacts
-  std::uint64_t seed = 1;                         ///< of the choice among templates
+  double region_tolerance = 1e-4;  ///< regions smaller than this share of their material are removed; 0: none
+  bool manifold_voxels = true;     ///< remove vertex and edge contacts
+  std::uint64_t seed = 1;          ///< of the choice among templates
 };
 
 struct LabelChange {
@@ -28,14 +29,15 @@ struct CleanReport {
   NoiseReport noise;
   RegionReport removed;
   ContactReport contacts;
-  RegionReport regions;                ///< of the clean image
-  std::vector<LabelChange> labels;     ///< one a label, background left out
+  RegionReport regions;             ///< of the clean image
+  std::vector<LabelChange> labels;  ///< one a label, background left out
 };
 
-/// Cleans `image` in place. Small regions go first and contacts are removed before the regions are split, so that parts of
-/// a label which touch only by an edge or a vertex become one region and not two materials with a non-manifold seam.
-/// A label can vanish only as noise (a label all of whose voxels are specks); the report tells. Same result at any
-/// thread count. `split` false leaves the materials as they are (for writing the image).
+/// Cleans `image` in place. Small regions go first and contacts are removed before the regions are split, so
+/// that parts of a label which touch only by an edge or a vertex become one region and not two materials with
+/// a non-manifold seam. A label can vanish only as noise (a label all of whose voxels are specks); the report
+/// tells. Same result at any thread count. `split` false leaves the materials as they are (for writing the
+/// image).
 CleanReport clean_image(LabelImage& image, const CleanOptions& options, bool split);
 
 }  // namespace cbc3d

@@ -105,10 +105,12 @@ void warn_of_losses(const LabelImage& image, const MaterialMesh& mesh, MeshImage
     if (loss.lost_regions > 0) {
       const std::string what = loss.lost_regions == loss.regions
                                    ? "label " + std::to_string(label)
-                                   : std::to_string(loss.lost_regions) + " of " + std::to_string(loss.regions) +
-                                         " regions of label " + std::to_string(label);
-      report.warnings.push_back(what + " (" + std::to_string(loss.lost_voxels) +
-                                " voxels) not in the mesh; a smaller --lattice-spacing or --max-distance keeps more");
+                                   : std::to_string(loss.lost_regions) + " of " +
+                                         std::to_string(loss.regions) + " regions of label " +
+                                         std::to_string(label);
+      report.warnings.push_back(
+          what + " (" + std::to_string(loss.lost_voxels) +
+          " voxels) not in the mesh; a smaller --lattice-spacing or --max-distance keeps more");
     }
   }
 }
@@ -121,7 +123,8 @@ void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
   }
   for (const LabelChange& change : clean.labels) {
     if (change.voxels_before > 0 && change.voxels_after == 0) {
-      report.warnings.push_back("label " + std::to_string(change.label) + " (" + std::to_string(change.voxels_before) +
+      report.warnings.push_back("label " + std::to_string(change.label) + " (" +
+                                std::to_string(change.voxels_before) +
                                 " voxels) vanished in the cleaning; --relabel-noise none keeps it");
     }
   }

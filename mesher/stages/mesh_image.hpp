@@ -37,8 +37,9 @@ struct MeshImageReport {
   std::vector<std::string> warnings;
 };
 
-/// Meshes `image` (which is cleaned in place, so hand it over if it is not needed any more); the mesh is in physical space and carries the image's label values. Throws InputError for
-/// options out of range. The same bytes come out at any thread count.
+/// Meshes `image` (which is cleaned in place, so hand it over if it is not needed any more); the mesh is in
+/// physical space and carries the image's label values. Throws InputError for options out of range. The same
+/// bytes come out at any thread count.
 Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
                 MeshImageReport& report);
 

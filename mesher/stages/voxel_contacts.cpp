@@ -24,7 +24,8 @@ std::vector<std::uint32_t> priorities(const LabelImage& image) {
   const std::vector<std::size_t> voxels = image.voxels_per_material();
   std::vector<std::uint32_t> order(voxels.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin() + 1, order.end(), [&](std::uint32_t a, std::uint32_t b) { return voxels[a] > voxels[b]; });
+  std::stable_sort(order.begin() + 1, order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return voxels[a] > voxels[b]; });
   std::vector<std::uint32_t> priority(order.size());
   for (std::uint32_t place = 0; place < order.size(); ++place) {
     priority[order[place]] = place;
@@ -39,7 +40,8 @@ class ContactRemover {
         seed_(seed),
         priority_(priorities(image)),
         step_{1, static_cast<std::size_t>(image.frame.size[0]),
-              static_cast<std::size_t>(image.frame.size[0]) * static_cast<std::size_t>(image.frame.size[1])} {}
+              static_cast<std::size_t>(image.frame.size[0]) * static_cast<std::size_t>(image.frame.size[1])} {
+  }
 
   ContactReport count() {
     report_.vertex_contacts = places_in_image(Kind::vertex).size();
@@ -71,8 +73,9 @@ class ContactRemover {
  private:
   /// The two voxels in contact and the paths by which they can be joined.
   struct Contact {
-    std::array<std::size_t, 2> ends;                 // voxel offsets
-    std::array<std::array<std::size_t, 2>, 6> paths; // voxels to set; for an edge contact both entries are the same
+    std::array<std::size_t, 2> ends;  // voxel offsets
+    std::array<std::array<std::size_t, 2>, 6>
+        paths;  // voxels to set; for an edge contact both entries are the same
     std::size_t path_count;
   };
 
@@ -108,7 +111,8 @@ class ContactRemover {
     const bool z = at_index[2] + 1 < image_.frame.size[2];
     return (x && at(v + step_[0]) != m) || (y && at(v + step_[1]) != m) || (z && at(v + step_[2]) != m) ||
            (x && y && at(v + step_[0] + step_[1]) != m) || (x && z && at(v + step_[0] + step_[2]) != m) ||
-           (y && z && at(v + step_[1] + step_[2]) != m) || (x && y && z && at(v + step_[0] + step_[1] + step_[2]) != m);
+           (y && z && at(v + step_[1] + step_[2]) != m) ||
+           (x && y && z && at(v + step_[0] + step_[1] + step_[2]) != m);
   }
 
   [[nodiscard]] std::optional<Contact> find_contact(std::size_t v, Kind kind) const {
@@ -135,7 +139,8 @@ class ContactRemover {
     const std::array<std::size_t, 4> corner = {v, v + u, v + u + w, v + w};  // around the square
     for (std::size_t c = 0; c < 2; ++c) {
       const MaterialId m = at(corner[c]);
-      if (m != kBackground && at(corner[c + 2]) == m && at(corner[c + 1]) != m && at(corner[(c + 3) % 4]) != m) {
+      if (m != kBackground && at(corner[c + 2]) == m && at(corner[c + 1]) != m &&
+          at(corner[(c + 3) % 4]) != m) {
         Contact contact{{corner[c], corner[c + 2]}, {}, 2};
         contact.paths[0] = {corner[c + 1], corner[c + 1]};
         contact.paths[1] = {corner[(c + 3) % 4], corner[(c + 3) % 4]};
@@ -148,14 +153,16 @@ class ContactRemover {
   [[nodiscard]] std::optional<Contact> find_vertex_contact(std::size_t v) const {
     std::array<std::size_t, 8> corner{};
     for (std::size_t c = 0; c < 8; ++c) {
-      corner[c] = v + ((c & 1U) != 0 ? step_[0] : 0) + ((c & 2U) != 0 ? step_[1] : 0) + ((c & 4U) != 0 ? step_[2] : 0);
+      corner[c] = v + ((c & 1U) != 0 ? step_[0] : 0) + ((c & 2U) != 0 ? step_[1] : 0) +
+                  ((c & 4U) != 0 ? step_[2] : 0);
     }
     for (std::size_t c = 0; c < 4; ++c) {
       const MaterialId m = at(corner[c]);
       if (m == kBackground || at(corner[7 - c]) != m) {
         continue;
       }
-      const auto same = std::count_if(corner.begin(), corner.end(), [&](std::size_t o) { return at(o) == m; });
+      const auto same =
+          std::count_if(corner.begin(), corner.end(), [&](std::size_t o) { return at(o) == m; });
       if (same == 2) {
         Contact contact{{corner[c], corner[7 - c]}, {}, 6};
         std::size_t path = 0;
@@ -209,7 +216,8 @@ class ContactRemover {
     give_way(contact, m, random);
   }
 
-  /// Every path holds a material of higher priority: one of the two ends takes over such a neighbour's material.
+  /// Every path holds a material of higher priority: one of the two ends takes over such a neighbour's
+  /// material.
   void give_way(const Contact& contact, MaterialId m, std::uint64_t random) {
     const auto& path = contact.paths[random % contact.path_count];
     const std::size_t end = contact.ends[(random >> 8U) % 2];
@@ -254,7 +262,9 @@ class ContactRemover {
 
 }  // namespace
 
-ContactReport remove_voxel_contacts(LabelImage& image, std::uint64_t seed) { return ContactRemover(image, seed).run(); }
+ContactReport remove_voxel_contacts(LabelImage& image, std::uint64_t seed) {
+  return ContactRemover(image, seed).run();
+}
 
 ContactReport count_voxel_contacts(const LabelImage& image) {
   LabelImage copy = image;

@@ -19,9 +19,9 @@ struct NoiseReport {
   std::size_t specks_relabelled = 0;
 };
 
-/// Gives every noisy voxel the material that most of its 26 neighbours have; the more face neighbours win a tie, then the
-/// smaller material number. All voxels are judged by the image as it was, in parallel. The outside of the image counts as
-/// background. The paper leaves open which neighbour is followed.
+/// Gives every noisy voxel the material that most of its 26 neighbours have; the more face neighbours win a
+/// tie, then the smaller material number. All voxels are judged by the image as it was, in parallel. The
+/// outside of the image counts as background. The paper leaves open which neighbour is followed.
 NoiseReport relabel_noisy_voxels(LabelImage& image, NoisyVoxels which);
 
 }  // namespace cbc3d

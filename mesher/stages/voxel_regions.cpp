@@ -58,7 +58,8 @@ class Regions {
 
  private:
   void collect_runs() {
-    const std::size_t rows = static_cast<std::size_t>(image_.frame.size[1]) * static_cast<std::size_t>(image_.frame.size[2]);
+    const std::size_t rows =
+        static_cast<std::size_t>(image_.frame.size[1]) * static_cast<std::size_t>(image_.frame.size[2]);
     first_.assign(rows + 1, 0);
 #pragma omp parallel for schedule(static)
     for (std::size_t row = 0; row < rows; ++row) {
@@ -197,7 +198,9 @@ RegionReport split_regions(LabelImage& image) {
       others.push_back(r);
     }
   }
-  std::stable_sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) { return regions.list()[a].voxels > regions.list()[b].voxels; });
+  std::stable_sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) {
+    return regions.list()[a].voxels > regions.list()[b].voxels;
+  });
   for (const std::size_t r : others) {
     if (image.labels.size() <= std::numeric_limits<MaterialId>::max()) {
       const Label label = image.labels[to[r]];

@@ -1,0 +1,113 @@
+#include "mesher/app/mesh_report.hpp"
+
+#include "mesher/app/option_overrides.hpp"
+#include "mesher/core/runtime.hpp"
+
+namespace cbc3d {
+namespace {
+
+nlohmann::json options_json(const RunDescription& run, const MeshImageReport& report) {
+  const MeshImageOptions& o = run.options;
+  nlohmann::json material = nlohmann::json::object();
+  for (const auto& [label, f] : o.refine.material_fidelity) {
+    material[std::to_string(label)] = f;
+  }
+  return {{"preset", run.preset},
+          {"relabel_noise", name_of(kNoisyVoxelNames, o.clean.relabel_noise)},
+          {"region_tolerance", o.clean.region_tolerance},
+          {"manifold_voxels", o.clean.manifold_voxels},
+          {"lattice_spacing_mm", report.lattice_spacing_mm},
+          {"fidelity", o.refine.fidelity},
+          {"material_fidelity", material},
+          {"max_distance_mm", o.refine.max_distance_mm},
+          {"finest_spacing_mm", report.finest_spacing_mm},
+          {"iterations", o.deform.iterations},
+          {"connectivity", name_of(kConnectivityNames, o.deform.connectivity)},
+          {"target_position", name_of(kTargetPositionNames, o.deform.target_position)},
+          {"on_failure", name_of(kOnFailureNames, o.deform.on_failure)},
+          {"young_pa", o.deform.elasticity.young_pa},
+          {"poisson", o.deform.elasticity.poisson},
+          {"min_dihedral_deg", o.deform.min_dihedral_deg},
+          {"seed", o.clean.seed},
+          {"threads", run.threads}};
+}
+
+nlohmann::json fidelity_json(const MeshImageReport& report) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const MaterialFidelity& f : report.refine.fidelity) {
+    list.push_back({{"label", f.label},
+                    {"wanted", f.wanted},
+                    {"f1", f.f1()},
+                    {"f2", f.f2()},
+                    {"met", f.met()},
+                    {"image_voxels", f.image_voxels}});
+  }
+  return list;
+}
+
+nlohmann::json deformation_json(const MeshImageReport& report) {
+  nlohmann::json iterations = nlohmann::json::array();
+  for (const DeformIteration& i : report.deform.iterations) {
+    iterations.push_back({{"matched_sources", i.matched_sources},
+                          {"mean_displacement_mm", i.mean_displacement_mm},
+                          {"max_displacement_mm", i.max_displacement_mm},
+                          {"attempts", i.attempts},
+                          {"recovered_vertices", i.recovered_vertices},
+                          {"solver_iterations", i.solver.iterations},
+                          {"relative_residual", i.solver.relative_residual}});
+  }
+  return {{"sources", report.deform.sources},
+          {"targets", report.deform.targets},
+          {"stopped_early", report.deform.stopped_early},
+          {"iterations", iterations}};
+}
+
+}  // namespace
+
+nlohmann::json cleaning_json(const CleanReport& clean) {
+  nlohmann::json labels = nlohmann::json::array();
+  for (const LabelChange& change : clean.labels) {
+    labels.push_back({{"label", change.label},
+                      {"voxels_before", change.voxels_before},
+                      {"voxels_after", change.voxels_after}});
+  }
+  return {{"holes_filled", clean.noise.holes_filled},
+          {"specks_relabelled", clean.noise.specks_relabelled},
+          {"regions_removed", clean.removed.regions_removed},
+          {"voxels_of_regions_removed", clean.removed.voxels_removed},
+          {"vertex_contacts", clean.contacts.vertex_contacts},
+          {"edge_contacts", clean.contacts.edge_contacts},
+          {"voxels_changed_for_contacts", clean.contacts.voxels_changed},
+          {"contact_rounds", clean.contacts.rounds},
+          {"regions", clean.regions.regions},
+          {"labels", labels}};
+}
+
+nlohmann::json report_json(const RunDescription& run, const MeshImageReport& report, const Mesh& mesh) {
+  nlohmann::json stages = nlohmann::json::object();
+  for (const auto& [name, seconds] : report.stage_seconds) {
+    stages[name] = seconds;
+  }
+  return {{"status", "ok"},
+          {"reason", ""},
+          {"version", CBC3D_VERSION},
+          {"options", options_json(run, report)},
+          {"counts",
+           {{"vertices", mesh.points.size()},
+            {"tets", mesh.tets.size()},
+            {"pyramids", mesh.pyramids.size()},
+            {"wedges", mesh.wedges.size()},
+            {"hexes", mesh.hexes.size()}}},
+          {"cleaning", cleaning_json(report.clean)},
+          {"refinement",
+           {{"rounds", report.refine.rounds},
+            {"finest_spacing_mm", report.finest_spacing_mm},
+            {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
+          {"materials", fidelity_json(report)},
+          {"deformation", deformation_json(report)},
+          {"warnings", report.warnings},
+          {"seconds", {{"total", report.seconds}, {"cpu", process_cpu_seconds()}, {"stages", stages}}},
+          {"peak_rss_bytes", process_peak_rss_bytes()}};
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,24 @@
+// The JSON report of a run of the mesher.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "mesher/stages/mesh_image.hpp"
+
+namespace cbc3d {
+
+struct RunDescription {
+  std::string preset;
+  int threads = 0;           ///< in force
+  MeshImageOptions options;  ///< preset and overrides together
+};
+
+/// What a cleaning changed: counts, and voxels per label before and after.
+nlohmann::json cleaning_json(const CleanReport& clean);
+
+/// Options used, counts, per-material F1 and F2, per-iteration deformation figures, seconds per stage, peak
+/// memory and warnings (the contract's keys).
+nlohmann::json report_json(const RunDescription& run, const MeshImageReport& report, const Mesh& mesh);
+
+}  // namespace cbc3d

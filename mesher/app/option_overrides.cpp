@@ -1,0 +1,123 @@
+#include "mesher/app/option_overrides.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace cbc3d {
+
+const EnumNames<Connectivity> kConnectivityNames = {{"vertex", Connectivity::vertex},
+                                                    {"edge", Connectivity::edge},
+                                                    {"face", Connectivity::face},
+                                                    {"no", Connectivity::no}};
+const EnumNames<TargetPosition> kTargetPositionNames = {{"voxel-centre", TargetPosition::voxel_centre},
+                                                        {"voxel-faces", TargetPosition::voxel_faces}};
+const EnumNames<NoisyVoxels> kNoisyVoxelNames = {{"none", NoisyVoxels::none},
+                                                 {"holes", NoisyVoxels::holes},
+                                                 {"specks", NoisyVoxels::specks},
+                                                 {"both", NoisyVoxels::both}};
+const EnumNames<OnFailure> kOnFailureNames = {{"stop", OnFailure::stop}, {"recover", OnFailure::recover}};
+
+namespace {
+
+/// Adds an option whose value goes into the field that `field` picks.
+template <typename Value, typename Field>
+CLI::Option* add_override(CLI::App& app, Overrides& overrides, const std::string& name,
+                          const std::string& text, Field field) {
+  return app.add_option_function<Value>(
+      name,
+      [&overrides, field](const Value& value) {
+        overrides.push_back([value, field](MeshImageOptions& o) { field(o) = value; });
+      },
+      text);
+}
+
+template <typename Enum, typename Field>
+void add_choice(CLI::App& app, Overrides& overrides, const std::string& name, const std::string& text,
+                const EnumNames<Enum>& names, Field field) {
+  std::vector<std::string> allowed;
+  for (const auto& n : names) {
+    allowed.emplace_back(n.first);
+  }
+  app.add_option_function<std::string>(
+         name,
+         [&overrides, &names, field](const std::string& value) {
+           const Enum chosen = std::find_if(names.begin(), names.end(), [&](const auto& n) {
+                                 return value == n.first;
+                               })->second;
+           overrides.push_back([chosen, field](MeshImageOptions& o) { field(o) = chosen; });
+         },
+         text)
+      ->check(CLI::IsMember(allowed));
+}
+
+}  // namespace
+
+void add_cleaning_options(CLI::App& app, Overrides& overrides) {
+  add_choice(app, overrides, "--relabel-noise",
+             "isolated voxels given their neighbours' label: none, holes, specks or both [none]",
+             kNoisyVoxelNames, [](MeshImageOptions& o) -> NoisyVoxels& { return o.clean.relabel_noise; });
+  add_override<double>(
+      app, overrides, "--region-tolerance",
+      "regions below this share of their label's voxels become background [1e-4; preset quality: 0]",
+      [](MeshImageOptions& o) -> double& { return o.clean.region_tolerance; })
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_flag_callback(
+      "--no-manifold-voxels",
+      [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.clean.manifold_voxels = false; }); },
+      "leave voxels of a label that touch only by an edge or a vertex");
+  add_override<std::uint64_t>(app, overrides, "--seed", "seed of the choice among cleaning templates [1]",
+                              [](MeshImageOptions& o) -> std::uint64_t& { return o.clean.seed; });
+}
+
+void add_lattice_options(CLI::App& app, Overrides& overrides) {
+  add_override<double>(app, overrides, "--lattice-spacing",
+                       "edge of the coarsest lattice cubes, mm [ten times the mean voxel spacing]",
+                       [](MeshImageOptions& o) -> double& { return o.lattice_spacing_mm; })
+      ->check(CLI::PositiveNumber);
+  add_override<double>(app, overrides, "--fidelity",
+                       "F: refine a material while its F1 or F2 is below; in (0,1] [0.95]",
+                       [](MeshImageOptions& o) -> double& { return o.refine.fidelity; })
+      ->check(CLI::Range(1e-6, 1.0));
+  add_override<double>(app, overrides, "--finest-spacing",
+                       "the fidelity criterion makes the lattice no finer than this, mm; --max-distance may "
+                       "go to a quarter of it "
+                       "[the smallest voxel spacing]",
+                       [](MeshImageOptions& o) -> double& { return o.refine.finest_spacing_mm; })
+      ->check(CLI::PositiveNumber);
+  add_override<double>(app, overrides, "--max-distance",
+                       "refine also where a boundary voxel has no interface vertex within so many mm; 0: off "
+                       "[quality: two voxel "
+                       "diagonals, paper: off]",
+                       [](MeshImageOptions& o) -> double& { return o.refine.max_distance_mm; })
+      ->check(CLI::NonNegativeNumber);
+}
+
+void add_deformation_options(CLI::App& app, Overrides& overrides) {
+  add_override<int>(app, overrides, "--iterations", "deformation iterations [5]",
+                    [](MeshImageOptions& o) -> int& { return o.deform.iterations; })
+      ->check(CLI::Range(0, 1000));
+  add_choice(app, overrides, "--connectivity",
+             "pattern that thins the target points: vertex, edge, face or no [no]", kConnectivityNames,
+             [](MeshImageOptions& o) -> Connectivity& { return o.deform.connectivity; });
+  add_choice(app, overrides, "--target-position",
+             "targets at voxel-centre (half a voxel inside) or voxel-faces [quality: voxel-faces, paper: "
+             "voxel-centre]",
+             kTargetPositionNames,
+             [](MeshImageOptions& o) -> TargetPosition& { return o.deform.target_position; });
+  add_choice(app, overrides, "--on-failure",
+             "where elements stay below the minimum quality: stop all, or recover there and go on [quality: "
+             "recover, paper: stop]",
+             kOnFailureNames, [](MeshImageOptions& o) -> OnFailure& { return o.deform.on_failure; });
+  add_override<double>(app, overrides, "--young-pa", "Young's modulus, Pa [2100]",
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.young_pa; })
+      ->check(CLI::PositiveNumber);
+  add_override<double>(app, overrides, "--poisson", "Poisson's ratio, in [0, 0.5) [0.45]",
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.poisson; })
+      ->check(CLI::Range(0.0, 0.499));
+  add_override<double>(app, overrides, "--min-dihedral",
+                       "smallest dihedral angle that the deformation keeps, degrees [5]",
+                       [](MeshImageOptions& o) -> double& { return o.deform.min_dihedral_deg; })
+      ->check(CLI::Range(0.0, 60.0));
+}
+
+}  // namespace cbc3d
