@@ -17,6 +17,7 @@ nlohmann::json options_json(const RunDescription& run, const MeshImageReport& re
           {"region_tolerance", o.clean.region_tolerance},
           {"manifold_voxels", o.clean.manifold_voxels},
           {"lattice_spacing_mm", report.lattice_spacing_mm},
+          {"topology_checks", o.topology.enabled},
           {"fidelity", o.refine.fidelity},
           {"material_fidelity", material},
           {"max_distance_mm", o.refine.max_distance_mm},
@@ -43,6 +44,18 @@ nlohmann::json fidelity_json(const MeshImageReport& report) {
                     {"image_voxels", f.image_voxels}});
   }
   return list;
+}
+
+nlohmann::json topology_json(const TopologyReport& topology) {
+  nlohmann::json labels = nlohmann::json::array();
+  for (const LabelTopology& t : topology.labels) {
+    labels.push_back({{"label", t.label}, {"image_regions", t.image_regions}, {"components", t.components}});
+  }
+  return {{"non_manifold_vertices_found", topology.non_manifold_vertices},
+          {"non_manifold_vertices_left", topology.non_manifold_vertices_left},
+          {"tets_relabelled", topology.tets_relabelled},
+          {"components_removed", topology.components_removed},
+          {"labels", labels}};
 }
 
 nlohmann::json deformation_json(const MeshImageReport& report) {
@@ -103,6 +116,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
            {{"rounds", report.refine.rounds},
             {"finest_spacing_mm", report.finest_spacing_mm},
             {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
+          {"topology", run.options.topology.enabled ? topology_json(report.topology) : nlohmann::json()},
           {"materials", fidelity_json(report)},
           {"deformation", deformation_json(report)},
           {"warnings", report.warnings},

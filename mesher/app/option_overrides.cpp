@@ -90,6 +90,10 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
                        "diagonals, paper: off]",
                        [](MeshImageOptions& o) -> double& { return o.refine.max_distance_mm; })
       ->check(CLI::NonNegativeNumber);
+  app.add_flag_callback(
+      "--topology-checks",
+      [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.topology.enabled = true; }); },
+      "make every label's sub-mesh a manifold without crumbs: refine there, then relabel");
 }
 
 void add_deformation_options(CLI::App& app, Overrides& overrides) {

@@ -16,7 +16,8 @@ using Overrides = std::vector<std::function<void(MeshImageOptions&)>>;
 
 /// The image pre-processing: --relabel-noise, --region-tolerance, --no-manifold-voxels, --seed.
 void add_cleaning_options(CLI::App& app, Overrides& overrides);
-/// Lattice and refinement: --lattice-spacing, --fidelity, --max-distance, --finest-spacing.
+/// Lattice and refinement: --lattice-spacing, --fidelity, --max-distance, --finest-spacing,
+/// --topology-checks.
 void add_lattice_options(CLI::App& app, Overrides& overrides);
 /// Deformation: --iterations, --connectivity, --target-position, --on-failure, --young-pa, --poisson,
 /// --min-dihedral.

@@ -66,6 +66,7 @@ MaterialMesh as_material_mesh(const Lattice& lattice) {
 
 RefineOptions refine_options(const LabelImage& image, const MeshImageOptions& options) {
   RefineOptions refine = options.refine;
+  refine.topology_checks = options.topology.enabled;
   if (refine.finest_spacing_mm <= 0) {
     refine.finest_spacing_mm = image.frame.spacing_mm.min_coeff();
   }
@@ -130,6 +131,27 @@ void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
   }
 }
 
+void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) {
+  if (!options.clean.manifold_voxels) {
+    report.warnings.emplace_back(
+        "--topology-checks with --no-manifold-voxels: contacts of voxels by an edge or a vertex are left to "
+        "the mesh, which "
+        "will cut or join them");
+  }
+  for (const LabelTopology& t : report.topology.labels) {
+    if (t.components != t.image_regions) {
+      report.warnings.push_back("label " + std::to_string(t.label) + " has " +
+                                std::to_string(t.image_regions) +
+                                " face-connected regions in the cleaned image and " +
+                                std::to_string(t.components) + " in the mesh");
+    }
+  }
+  if (report.topology.non_manifold_vertices_left > 0) {
+    report.warnings.push_back(std::to_string(report.topology.non_manifold_vertices_left) +
+                              " vertices are left where a label's surface is no manifold");
+  }
+}
+
 }  // namespace
 
 Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
@@ -153,6 +175,13 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
   });
   CandidateMesh candidate = std::move(report.refine.mesh);
   report.finest_spacing_mm = lattice.frame.spacing_mm(lattice.frame.max_level);
+
+  if (options.topology.enabled) {
+    report.topology = log.run("topology_checks", 0.45, [&] {
+      return check_topology(candidate, local_points(lattice), image, options.topology);
+    });
+    warn_of_topology(options, report);
+  }
 
   MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {
     return discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);

@@ -10,6 +10,7 @@
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 #include "mesher/core/progress.hpp"
+#include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/clean_image.hpp"
 #include "mesher/stages/deform_mesh.hpp"
 #include "mesher/stages/refine_lattice.hpp"
@@ -21,6 +22,7 @@ struct MeshImageOptions {
       0;  ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
   CleanOptions clean;
   RefineOptions refine;
+  TopologyOptions topology;
   DeformOptions deform;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
@@ -33,6 +35,7 @@ struct MeshImageReport {
   double seconds = 0;
   CleanReport clean;
   RefineResult refine;  ///< without its mesh
+  TopologyReport topology;
   DeformReport deform;
   std::vector<std::string> warnings;
 };

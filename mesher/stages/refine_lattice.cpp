@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/coverage.hpp"
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/select_candidate.hpp"
@@ -162,6 +163,31 @@ class Refiner {
       mark_by_distance_sign(unmet);
       mark_misjudged(unmet);
     }
+    if (count_splittable() == 0 && options_.topology_checks && topology_rounds_ < options_.topology_rounds) {
+      ++topology_rounds_;
+      mark_non_manifold();
+    }
+    return count_splittable();
+  }
+
+  /// The paper: when the fidelity is settled, the tets around non-manifold vertices and edges are split in
+  /// the next round.
+  void mark_non_manifold() {
+    const CandidateMesh& mesh = result_.mesh;
+    std::vector<std::uint8_t> bad(points_.size(), 0);
+    for (const VertexId v : non_manifold_vertices(mesh, points_.size(), image_.labels)) {
+      bad[v] = 1;
+    }
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      const auto& n = mesh.tets.nodes[t];
+      if ((bad[n[0]] | bad[n[1]] | bad[n[2]] | bad[n[3]]) != 0 && may_split_for_fidelity(t)) {
+        mark_tet(t);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t count_splittable() const {
     std::size_t can_split = 0;
     for (std::size_t r = 0; r < marked_.size(); ++r) {
       can_split +=
@@ -249,6 +275,7 @@ class Refiner {
   std::vector<Vec3> points_;
   std::vector<MaterialId> centroid_material_;
   std::vector<std::uint8_t> marked_;
+  int topology_rounds_ = 0;
   RefineResult result_;
 };
 

@@ -1,0 +1,400 @@
+#include "mesher/stages/check_topology.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "mesher/stages/vertex_star.hpp"
+
+namespace cbc3d {
+namespace {
+
+/// Materials of one label form one class; class 0 is background.
+struct Classes {
+  std::vector<ClassId> of_material;
+  std::vector<Label> label;  // of a class
+
+  explicit Classes(const std::vector<Label>& label_of_material) {
+    std::map<Label, ClassId> known;
+    label.push_back(0);
+    of_material.push_back(0);
+    for (std::size_t m = 1; m < label_of_material.size(); ++m) {
+      const auto [found, added] = known.try_emplace(label_of_material[m], static_cast<ClassId>(label.size()));
+      if (added) {
+        label.push_back(label_of_material[m]);
+      }
+      of_material.push_back(found->second);
+    }
+  }
+};
+
+std::vector<ClassId> classes_of_tets(const Classes& classes, const std::vector<MaterialId>& materials) {
+  std::vector<ClassId> result(materials.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < materials.size(); ++t) {
+    result[t] = classes.of_material[materials[t]];
+  }
+  return result;
+}
+
+/// Background highest, then the fewer voxels the higher.
+std::vector<std::uint32_t> ranks(const Classes& classes, const LabelImage& image) {
+  std::vector<std::size_t> voxels(classes.label.size(), 0);
+  const std::vector<std::size_t> of_material = image.voxels_per_material();
+  for (std::size_t m = 1; m < of_material.size(); ++m) {
+    voxels[classes.of_material[m]] += of_material[m];
+  }
+  std::vector<std::uint32_t> order(voxels.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin() + 1, order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return voxels[a] > voxels[b]; });
+  std::vector<std::uint32_t> rank(order.size());
+  rank[0] = static_cast<std::uint32_t>(order.size());
+  for (std::uint32_t place = 1; place < order.size(); ++place) {
+    rank[order[place]] = place;
+  }
+  return rank;
+}
+
+bool is_manifold_everywhere(VertexStar& star) {
+  const auto& distinct = star.distinct();
+  return distinct.size() < 2 || std::all_of(distinct.begin(), distinct.end(),
+                                            [&star](ClassId c) { return c == 0 || star.is_manifold(c); });
+}
+
+std::vector<VertexId> find_non_manifold(const VertexTets& around, const CandidateMesh& mesh,
+                                        const std::vector<ClassId>& class_of_tet) {
+  const std::size_t count = around.first.size() - 1;
+  std::vector<std::uint8_t> bad(count, 0);
+#pragma omp parallel
+  {
+    VertexStar star(around, mesh.tets.nodes, mesh.neighbours);
+#pragma omp for schedule(dynamic, 1024)
+    for (std::size_t v = 0; v < count; ++v) {
+      star.load(static_cast<VertexId>(v), class_of_tet, 0);
+      bad[v] = is_manifold_everywhere(star) ? 0 : 1;
+    }
+  }
+  std::vector<VertexId> vertices;
+  for (std::size_t v = 0; v < count; ++v) {
+    if (bad[v] != 0) {
+      vertices.push_back(static_cast<VertexId>(v));
+    }
+  }
+  return vertices;
+}
+
+class Repair {
+ public:
+  Repair(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+         const TopologyOptions& options)
+      : mesh_(mesh),
+        points_(points),
+        options_(options),
+        classes_(image.labels),
+        rank_(ranks(classes_, image)),
+        around_(tets_of_vertices(mesh.tets.nodes, points.size())),
+        class_of_tet_(classes_of_tets(classes_, mesh.materials)),
+        star_(around_, mesh.tets.nodes, mesh.neighbours) {
+    report_.labels.resize(classes_.label.size());
+    const std::vector<std::size_t> voxels = image.voxels_per_material();
+    for (std::size_t m = 1; m < voxels.size(); ++m) {
+      report_.labels[classes_.of_material[m]].image_regions += voxels[m] > 0 ? 1 : 0;
+    }
+  }
+
+  TopologyReport run() {
+    std::vector<VertexId> bad = find_non_manifold(around_, mesh_, class_of_tet_);
+    report_.non_manifold_vertices = bad.size();
+    // Removing a component can touch a neighbour's surface; then the repair runs again. Components only
+    // become fewer by removal, and what the bound would leave is counted below, so nothing is hidden.
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      repair_vertices(std::move(bad));
+      if (remove_small_components() == 0) {
+        break;
+      }
+      bad = find_non_manifold(around_, mesh_, class_of_tet_);
+    }
+    repair_vertices(find_non_manifold(around_, mesh_, class_of_tet_));
+    report_.non_manifold_vertices_left = find_non_manifold(around_, mesh_, class_of_tet_).size();
+    count_components();
+    report_.labels.erase(report_.labels.begin());
+    return std::move(report_);
+  }
+
+ private:
+  static constexpr int kMostPasses = 10;
+
+  void repair_vertices(std::vector<VertexId> queue) {
+    while (!queue.empty()) {
+      touched_.clear();
+      for (const VertexId v : queue) {
+        repair_vertex(v);
+      }
+      keep_one_face_rule();
+      for (const TetId t : touched_) {
+        for (const VertexId v : mesh_.tets.nodes[t]) {
+          next_.push_back(v);
+        }
+      }
+      std::sort(next_.begin(), next_.end());
+      next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
+      queue.swap(next_);
+      next_.clear();
+    }
+  }
+
+  void repair_vertex(VertexId v) {
+    for (bool changed = true; changed;) {
+      changed = false;
+      star_.load(v, class_of_tet_, 0);
+      for (const ClassId c : star_.distinct()) {
+        if (c != 0 && (join_or_drop_pieces(c) || close_or_leave_rest(c))) {
+          changed = true;
+          break;
+        }
+      }
+    }
+  }
+
+  /// The highest-ranked class of the star.
+  [[nodiscard]] ClassId highest() const {
+    ClassId best = star_.distinct().front();
+    for (const ClassId c : star_.distinct()) {
+      best = rank_[c] > rank_[best] ? c : best;
+    }
+    return best;
+  }
+
+  /// Class c falls into pieces.
+  bool join_or_drop_pieces(ClassId c) {
+    const int pieces = star_.split(c, true);
+    if (pieces <= 1) {
+      return false;
+    }
+    const ClassId top = highest();
+    if (top == c) {  // all others are lower
+      for (std::size_t i = 0; i < star_.size(); ++i) {
+        set(i, c);
+      }
+      return true;
+    }
+    std::vector<int> size(static_cast<std::size_t>(pieces), 0);
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      if (star_.piece(i) >= 0) {
+        ++size[static_cast<std::size_t>(star_.piece(i))];
+      }
+    }
+    const auto largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      if (star_.piece(i) >= 0 && star_.piece(i) != largest) {
+        set(i, top);
+      }
+    }
+    return true;
+  }
+
+  /// What is not of class c falls into pieces.
+  bool close_or_leave_rest(ClassId c) {
+    const int pieces = star_.split(c, false);
+    if (pieces <= 1) {
+      return false;
+    }
+    std::vector<std::uint8_t> has_higher(static_cast<std::size_t>(pieces), 0);
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      if (star_.piece(i) >= 0 && rank_[star_.class_of(i)] > rank_[c]) {
+        has_higher[static_cast<std::size_t>(star_.piece(i))] = 1;
+      }
+    }
+    const bool leave = std::count(has_higher.begin(), has_higher.end(), 1) > 1;
+    const ClassId top = highest();
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      if (leave && star_.class_of(i) == c) {
+        set(i, top);
+      } else if (!leave && star_.piece(i) >= 0 && has_higher[static_cast<std::size_t>(star_.piece(i))] == 0) {
+        set(i, c);
+      }
+    }
+    return true;
+  }
+
+  /// Gives member i of the star the class; its material is that of a member which has it.
+  void set(std::size_t i, ClassId to) {
+    const TetId t = star_.tet(i);
+    if (t == kNoTet || class_of_tet_[t] == to) {
+      return;
+    }
+    MaterialId material = kBackground;
+    for (std::size_t m = 0; to != 0 && m < star_.size(); ++m) {
+      if (star_.class_of(m) == to && star_.tet(m) != kNoTet) {
+        material = mesh_.materials[star_.tet(m)];
+        break;
+      }
+    }
+    relabel(t, material);
+  }
+
+  void relabel(TetId t, MaterialId material) {
+    mesh_.materials[t] = material;
+    class_of_tet_[t] = classes_.of_material[material];
+    touched_.push_back(t);
+    ++report_.tets_relabelled;
+  }
+
+  /// Labelled tets near a change with two or more faces towards background become background.
+  void keep_one_face_rule() {
+    for (std::size_t next = 0; next < touched_.size(); ++next) {
+      const TetId changed = touched_[next];
+      check_faces(changed);
+      for (const TetId n : mesh_.neighbours[changed]) {
+        if (n != kNoTet) {
+          check_faces(n);
+        }
+      }
+    }
+  }
+
+  void check_faces(TetId t) {
+    const auto& around = mesh_.neighbours[t];
+    const auto background = std::count_if(around.begin(), around.end(),
+                                          [&](TetId n) { return n == kNoTet || class_of_tet_[n] == 0; });
+    if (class_of_tet_[t] != 0 && background >= 2) {
+      relabel(t, kBackground);
+    }
+  }
+
+  /// Face-connected components of labelled tets: the component of every tet, and for each its class and
+  /// volume.
+  struct Components {
+    std::vector<std::uint32_t> of_tet;
+    std::vector<ClassId> class_of;
+    std::vector<double> volume;
+  };
+
+  [[nodiscard]] Components find_components() const {
+    constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+    Components found;
+    found.of_tet.assign(mesh_.tets.size(), kNone);
+    std::vector<TetId> stack;
+    for (std::size_t start = 0; start < found.of_tet.size(); ++start) {
+      if (class_of_tet_[start] == 0 || found.of_tet[start] != kNone) {
+        continue;
+      }
+      const auto number = static_cast<std::uint32_t>(found.class_of.size());
+      found.class_of.push_back(class_of_tet_[start]);
+      found.volume.push_back(0);
+      found.of_tet[start] = number;
+      stack.push_back(static_cast<TetId>(start));
+      while (!stack.empty()) {
+        const TetId t = stack.back();
+        stack.pop_back();
+        const auto& n = mesh_.tets.nodes[t];
+        found.volume[number] += six_volumes(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]) / 6;
+        for (const TetId next : mesh_.neighbours[t]) {
+          if (next != kNoTet && class_of_tet_[next] == class_of_tet_[t] && found.of_tet[next] == kNone) {
+            found.of_tet[next] = number;
+            stack.push_back(next);
+          }
+        }
+      }
+    }
+    return found;
+  }
+
+  /// Relabels components that are neither their label's share of small_component nor needed for a region of
+  /// the image: a label keeps as many components as its image has regions, the largest first.
+  std::size_t remove_small_components() {
+    const Components components = find_components();
+    std::vector<double> total(classes_.label.size(), 0);
+    std::vector<std::vector<std::uint32_t>> of_class(classes_.label.size());
+    for (std::uint32_t c = 0; c < components.class_of.size(); ++c) {
+      total[components.class_of[c]] += components.volume[c];
+      of_class[components.class_of[c]].push_back(c);
+    }
+    std::vector<std::uint8_t> remove(components.class_of.size(), 0);
+    std::size_t removed = 0;
+    for (std::size_t k = 1; k < of_class.size(); ++k) {
+      auto& list = of_class[k];
+      std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return components.volume[a] > components.volume[b];
+      });
+      for (std::size_t place = report_.labels[k].image_regions; place < list.size(); ++place) {
+        if (components.volume[list[place]] < options_.small_component * total[k]) {
+          remove[list[place]] = 1;
+          ++removed;
+        }
+      }
+    }
+    if (removed > 0) {
+      relabel_components(components, remove);
+      report_.components_removed += removed;
+    }
+    return removed;
+  }
+
+  /// Each removed component goes to the material across most of its outer faces; ties to background, then the
+  /// lower number.
+  void relabel_components(const Components& components, const std::vector<std::uint8_t>& remove) {
+    std::map<std::pair<std::uint32_t, MaterialId>, std::size_t> faces;
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
+      const std::uint32_t c = components.of_tet[t];
+      if (class_of_tet_[t] == 0 || remove[c] == 0) {
+        continue;
+      }
+      for (const TetId n : mesh_.neighbours[t]) {
+        if (n == kNoTet || components.of_tet[n] != c) {
+          ++faces[{c, n == kNoTet ? kBackground : mesh_.materials[n]}];
+        }
+      }
+    }
+    std::map<std::uint32_t, std::pair<std::size_t, MaterialId>> winner;
+    for (const auto& [key, count] : faces) {
+      auto& best = winner[key.first];
+      if (count > best.first) {
+        best = {count, key.second};
+      }
+    }
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
+      const std::uint32_t c = components.of_tet[t];
+      if (class_of_tet_[t] != 0 && remove[c] != 0) {
+        relabel(static_cast<TetId>(t), winner[c].second);
+      }
+    }
+  }
+
+  void count_components() {
+    for (std::size_t k = 1; k < classes_.label.size(); ++k) {
+      report_.labels[k].label = classes_.label[k];
+    }
+    for (const ClassId c : find_components().class_of) {
+      ++report_.labels[c].components;
+    }
+  }
+
+  CandidateMesh& mesh_;
+  const std::vector<Vec3>& points_;
+  const TopologyOptions& options_;
+  Classes classes_;
+  std::vector<std::uint32_t> rank_;
+  VertexTets around_;
+  std::vector<ClassId> class_of_tet_;
+  VertexStar star_;
+  std::vector<TetId> touched_;
+  std::vector<VertexId> next_;
+  TopologyReport report_;
+};
+
+}  // namespace
+
+std::vector<VertexId> non_manifold_vertices(const CandidateMesh& mesh, std::size_t vertex_count,
+                                            const std::vector<Label>& label_of_material) {
+  const VertexTets around = tets_of_vertices(mesh.tets.nodes, vertex_count);
+  return find_non_manifold(around, mesh, classes_of_tets(Classes(label_of_material), mesh.materials));
+}
+
+TopologyReport check_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+                              const TopologyOptions& options) {
+  return Repair(mesh, points, image, options).run();
+}
+
+}  // namespace cbc3d
