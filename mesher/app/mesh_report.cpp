@@ -49,7 +49,15 @@ nlohmann::json fidelity_json(const MeshImageReport& report) {
 nlohmann::json topology_json(const TopologyReport& topology) {
   nlohmann::json labels = nlohmann::json::array();
   for (const LabelTopology& t : topology.labels) {
-    labels.push_back({{"label", t.label}, {"image_regions", t.image_regions}, {"components", t.components}});
+    nlohmann::json extra = nlohmann::json::array();
+    for (const ExtraComponent& e : t.extra) {
+      extra.push_back({{"centroid_mm", {e.centroid_mm.x, e.centroid_mm.y, e.centroid_mm.z}},
+                       {"volume_mm3", e.volume_mm3}});
+    }
+    labels.push_back({{"label", t.label},
+                      {"image_regions", t.image_regions},
+                      {"components", t.components},
+                      {"extra_components", extra}});
   }
   return {{"non_manifold_vertices_found", topology.non_manifold_vertices},
           {"non_manifold_vertices_left", topology.non_manifold_vertices_left},

@@ -90,6 +90,7 @@ class Repair {
          const TopologyOptions& options)
       : mesh_(mesh),
         points_(points),
+        image_(image),
         options_(options),
         classes_(image.labels),
         rank_(ranks(classes_, image)),
@@ -269,6 +270,7 @@ class Repair {
     std::vector<std::uint32_t> of_tet;
     std::vector<ClassId> class_of;
     std::vector<double> volume;
+    std::vector<Vec3> centroid;  // local mm
   };
 
   [[nodiscard]] Components find_components() const {
@@ -283,13 +285,17 @@ class Repair {
       const auto number = static_cast<std::uint32_t>(found.class_of.size());
       found.class_of.push_back(class_of_tet_[start]);
       found.volume.push_back(0);
+      found.centroid.emplace_back();
       found.of_tet[start] = number;
       stack.push_back(static_cast<TetId>(start));
       while (!stack.empty()) {
         const TetId t = stack.back();
         stack.pop_back();
         const auto& n = mesh_.tets.nodes[t];
-        found.volume[number] += six_volumes(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]) / 6;
+        const double volume = six_volumes(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]) / 6;
+        found.volume[number] += volume;
+        found.centroid[number] +=
+            0.25 * volume * (points_[n[0]] + points_[n[1]] + points_[n[2]] + points_[n[3]]);
         for (const TetId next : mesh_.neighbours[t]) {
           if (next != kNoTet && class_of_tet_[next] == class_of_tet_[t] && found.of_tet[next] == kNone) {
             found.of_tet[next] = number;
@@ -326,7 +332,9 @@ class Repair {
       }
     }
     if (removed > 0) {
+      touched_.clear();
       relabel_components(components, remove);
+      keep_one_face_rule();
       report_.components_removed += removed;
     }
     return removed;
@@ -362,17 +370,31 @@ class Repair {
     }
   }
 
+  /// How many components each label has, and where those are that the image has no region for.
   void count_components() {
+    const Components components = find_components();
     for (std::size_t k = 1; k < classes_.label.size(); ++k) {
-      report_.labels[k].label = classes_.label[k];
-    }
-    for (const ClassId c : find_components().class_of) {
-      ++report_.labels[c].components;
+      LabelTopology& label = report_.labels[k];
+      label.label = classes_.label[k];
+      std::vector<ExtraComponent> all;
+      for (std::size_t c = 0; c < components.class_of.size(); ++c) {
+        if (components.class_of[c] == k) {
+          all.push_back({image_.frame.to_physical(components.centroid[c] / components.volume[c]),
+                         components.volume[c]});
+        }
+      }
+      std::stable_sort(all.begin(), all.end(),
+                       [](const auto& a, const auto& b) { return a.volume_mm3 > b.volume_mm3; });
+      label.components = all.size();
+      all.erase(all.begin(),
+                all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), label.image_regions)));
+      label.extra = std::move(all);
     }
   }
 
   CandidateMesh& mesh_;
   const std::vector<Vec3>& points_;
+  const LabelImage& image_;
   const TopologyOptions& options_;
   Classes classes_;
   std::vector<std::uint32_t> rank_;

@@ -28,10 +28,17 @@ struct TopologyOptions {
   double small_component = 0.01;  ///< a component below this share of its label's volume is relabelled
 };
 
+/// A component that the image has no region for.
+struct ExtraComponent {
+  Vec3 centroid_mm;  ///< physical
+  double volume_mm3 = 0;
+};
+
 struct LabelTopology {
   Label label = 0;
-  std::size_t image_regions = 0;  ///< face-connected regions of the label in the cleaned image
-  std::size_t components = 0;     ///< face-connected components of its sub-mesh
+  std::size_t image_regions = 0;      ///< face-connected regions of the label in the cleaned image
+  std::size_t components = 0;         ///< face-connected components of its sub-mesh
+  std::vector<ExtraComponent> extra;  ///< all but the largest image_regions components
 };
 
 struct TopologyReport {

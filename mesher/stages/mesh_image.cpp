@@ -143,7 +143,7 @@ void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) 
       report.warnings.push_back("label " + std::to_string(t.label) + " has " +
                                 std::to_string(t.image_regions) +
                                 " face-connected regions in the cleaned image and " +
-                                std::to_string(t.components) + " in the mesh");
+                                std::to_string(t.components) + " in the mesh (places: --report)");
     }
   }
   if (report.topology.non_manifold_vertices_left > 0) {
