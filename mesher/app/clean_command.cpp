@@ -38,7 +38,7 @@ void run(const CleanCommand& command) {
   const CleanReport report = clean_image(image, options.clean, false);
   progress.step("writing " + command.out, 0.7);
   write_label_image(image, command.out);
-  const nlohmann::json json = cleaning_json(report);
+  const nlohmann::json json = cleaning_json(report, image.frame);
   if (!command.report_file.empty()) {
     write_text_file(command.report_file, json.dump(2) + "\n");
   }

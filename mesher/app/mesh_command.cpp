@@ -22,7 +22,7 @@ namespace {
 struct MeshCommand {
   std::string image;
   std::string out;
-  RunDescription run{"quality", 0, {}};
+  RunDescription run{"quality", 0, {}, {}};
   std::vector<std::string> material_fidelity;
   Overrides overrides;
   std::string report_file;
@@ -71,6 +71,7 @@ void run(MeshCommand& command) {
   Progress progress(command.quiet);
   progress.step("reading " + command.image, 0);
   LabelImage image = read_label_image(command.image);
+  command.run.frame = image.frame;
   auto& options = command.run.options;
   options = preset_options(command.run.preset, image.frame);
   for (const auto& apply : command.overrides) {

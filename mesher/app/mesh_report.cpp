@@ -85,12 +85,16 @@ nlohmann::json deformation_json(const MeshImageReport& report) {
 
 }  // namespace
 
-nlohmann::json cleaning_json(const CleanReport& clean) {
+nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame) {
+  const double voxel_mm3 = frame.spacing_mm.x * frame.spacing_mm.y * frame.spacing_mm.z;
   nlohmann::json labels = nlohmann::json::array();
   for (const LabelChange& change : clean.labels) {
     labels.push_back({{"label", change.label},
                       {"voxels_before", change.voxels_before},
-                      {"voxels_after", change.voxels_after}});
+                      {"voxels_after", change.voxels_after},
+                      {"volume_change_mm3", (static_cast<double>(change.voxels_after) -
+                                             static_cast<double>(change.voxels_before)) *
+                                                voxel_mm3}});
   }
   return {{"holes_filled", clean.noise.holes_filled},
           {"specks_relabelled", clean.noise.specks_relabelled},
@@ -119,7 +123,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
             {"pyramids", mesh.pyramids.size()},
             {"wedges", mesh.wedges.size()},
             {"hexes", mesh.hexes.size()}}},
-          {"cleaning", cleaning_json(report.clean)},
+          {"cleaning", cleaning_json(report.clean, run.frame)},
           {"refinement",
            {{"rounds", report.refine.rounds},
             {"finest_spacing_mm", report.finest_spacing_mm},

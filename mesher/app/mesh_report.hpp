@@ -12,10 +12,11 @@ struct RunDescription {
   std::string preset;
   int threads = 0;           ///< in force
   MeshImageOptions options;  ///< preset and overrides together
+  ImageFrame frame;          ///< of the image
 };
 
-/// What a cleaning changed: counts, and voxels per label before and after.
-nlohmann::json cleaning_json(const CleanReport& clean);
+/// What a cleaning changed: counts, and per label the voxels before and after and the change of volume.
+nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame);
 
 /// Options used, counts, per-material F1 and F2, per-iteration deformation figures, seconds per stage, peak
 /// memory and warnings (the contract's keys).

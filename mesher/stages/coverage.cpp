@@ -29,7 +29,7 @@ std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
 }
 
 BoundaryCoverage::BoundaryCoverage(const LabelImage& image)
-    : image_(image), state_(image.voxels.size(), kInterior) {
+    : image_(image), state_(image.voxels.size(), kInterior), across_(image.voxels.size(), 0) {
   const auto& size = image.frame.size;
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < size[2]; ++k) {
@@ -56,6 +56,25 @@ void BoundaryCoverage::update(const std::vector<SurfaceVertex>& surface, const s
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::size_t s = 0; s < surface.size(); ++s) {
     cover_around(points[surface[s].vertex], surface[s].material, distance_mm);
+  }
+  mark_across();
+}
+
+void BoundaryCoverage::mark_across() {
+  std::fill(across_.begin(), across_.end(), 0);
+  for (const std::size_t v : boundary_) {
+    if (!is_uncovered(v)) {
+      continue;
+    }
+    const Index3 at = image_.frame.index_of(v);
+    for (std::size_t n = 0; n < 6; ++n) {
+      Index3 across = at;
+      across[n / 2] += n % 2 == 0 ? -1 : 1;
+      if (image_.frame.contains(across[0], across[1], across[2])) {
+        const std::size_t w = image_.frame.offset(across[0], across[1], across[2]);
+        across_[w] |= static_cast<std::uint8_t>(image_.voxels[w] != image_.voxels[v]);
+      }
+    }
   }
 }
 

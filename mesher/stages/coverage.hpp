@@ -33,6 +33,11 @@ class BoundaryCoverage {
   void update(const std::vector<SurfaceVertex>& surface, const std::vector<Vec3>& points, double distance_mm);
 
   [[nodiscard]] bool is_uncovered(std::size_t voxel) const { return state_[voxel] == kUncovered; }
+  /// True for uncovered voxels and for their face neighbours of another material: an interface can only
+  /// appear between the two where the lattice resolves both.
+  [[nodiscard]] bool wants_refinement(std::size_t voxel) const {
+    return is_uncovered(voxel) || across_[voxel] != 0;
+  }
   /// Number of boundary voxels without a surface vertex nearby.
   [[nodiscard]] std::size_t uncovered_count() const;
 
@@ -41,10 +46,12 @@ class BoundaryCoverage {
   static constexpr std::uint8_t kUncovered = 1;
   static constexpr std::uint8_t kCovered = 2;
 
+  void mark_across();
   void cover_around(const Vec3& centre_mm, MaterialId material, double distance_mm);
 
   const LabelImage& image_;
   std::vector<std::uint8_t> state_;    // a byte a voxel
+  std::vector<std::uint8_t> across_;   // 1: face neighbour of an uncovered voxel, of another material
   std::vector<std::size_t> boundary_;  // offsets of the boundary voxels, ascending
 };
 

@@ -190,13 +190,15 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
   report.warnings.insert(report.warnings.end(), report.refine.warnings.begin(), report.refine.warnings.end());
   warn_of_losses(image, mesh, report);
 
-  report.deform = log.run("deformation", 0.55, [&] {
-    return deform_mesh(mesh, image, options.deform, [&](int i) {
-      progress.step("deformation, iteration " + std::to_string(i + 1),
-                    0.55 + 0.4 * i / std::max(1, options.deform.iterations));
+  if (options.deform.iterations > 0) {
+    report.deform = log.run("deformation", 0.55, [&] {
+      return deform_mesh(mesh, image, options.deform, [&](int i) {
+        progress.step("deformation, iteration " + std::to_string(i + 1),
+                      0.55 + 0.4 * i / std::max(1, options.deform.iterations));
+      });
     });
-  });
-  log.dump("3_deformed_mesh", mesh);
+    log.dump("3_deformed_mesh", mesh);
+  }
   return to_physical_mesh(mesh, image);
 }
 

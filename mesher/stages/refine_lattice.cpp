@@ -130,7 +130,7 @@ class Refiner {
       for (int i = i_begin; i < i_end; ++i) {
         const std::size_t v = row + static_cast<std::size_t>(i);
         common += static_cast<std::size_t>(image_.voxels[v] == own);
-        uncovered = uncovered || (coverage_ && coverage_->is_uncovered(v));
+        uncovered = uncovered || (coverage_ && coverage_->wants_refinement(v));
       }
     });
     if (uncovered) {

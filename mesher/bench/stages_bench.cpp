@@ -1,0 +1,152 @@
+// A benchmark per stage, on one three-material phantom at 1, 8 and 64 times the voxels (the argument is the
+// size along an axis). Bytes and items per second are counted in voxels for the image's stages and in tets
+// for the mesh's.
+#include <benchmark/benchmark.h>
+
+#include "mesher/stages/bcc_lattice.hpp"
+#include "mesher/stages/check_topology.hpp"
+#include "mesher/stages/clean_image.hpp"
+#include "mesher/stages/deform_mesh.hpp"
+#include "mesher/stages/red_green.hpp"
+#include "mesher/stages/refine_lattice.hpp"
+#include "mesher/tests/test_images.hpp"
+
+namespace cbc3d {
+namespace {
+
+constexpr int kSizes[] = {48, 96, 192};
+
+/// Body, organ and a vessel through both, in the same proportions at every size; spacing 1 mm.
+LabelImage phantom(int size) {
+  const double s = size;
+  return testing::make_image({size, size, size}, {1, 1, 1}, 3, [s](const Vec3& p) {
+    const Vec3 q = p / s - Vec3{0.5, 0.5, 0.5};
+    const bool vessel = std::hypot(q.y - 0.1, q.z) < 0.05 && std::abs(q.x) < 0.4;
+    return vessel ? 3 : (q - Vec3{0.05, 0.1, 0}).norm() < 0.2 ? 2 : q.norm() < 0.42 ? 1 : 0;
+  });
+}
+
+struct Prepared {
+  LabelImage image;
+  Lattice lattice;
+  RefineResult refined;
+  std::vector<Vec3> points;
+  MaterialMesh mesh;
+};
+
+RefineOptions refine_options() {
+  RefineOptions options;
+  options.finest_spacing_mm = 1;
+  return options;
+}
+
+const Prepared& prepared(int size) {
+  static std::map<int, Prepared> cache;
+  const auto [found, added] = cache.try_emplace(size);
+  Prepared& p = found->second;
+  if (added) {
+    p.image = phantom(size);
+    p.lattice = build_bcc_lattice(p.image, {10, 1});
+    p.refined = refine_lattice(p.lattice, p.image, refine_options(), [](int, std::size_t) {});
+    for (const LatticePoint& v : p.lattice.points) {
+      p.points.push_back(p.lattice.frame.local(v));
+    }
+    p.mesh = discard_background(p.points, p.refined.mesh.tets.nodes, p.refined.mesh.materials);
+  }
+  return p;
+}
+
+void count_voxels(benchmark::State& state, const LabelImage& image) {
+  const auto voxels = static_cast<std::int64_t>(image.voxels.size());
+  state.SetItemsProcessed(state.iterations() * voxels);
+  state.SetBytesProcessed(state.iterations() * voxels * static_cast<std::int64_t>(sizeof(MaterialId)));
+}
+
+void count_tets(benchmark::State& state, std::size_t tets) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tets));
+}
+
+void CleanImage(benchmark::State& state) {
+  const LabelImage& image = prepared(static_cast<int>(state.range(0))).image;
+  CleanOptions options;
+  options.relabel_noise = NoisyVoxels::both;
+  for (auto _ : state) {
+    LabelImage copy = image;
+    benchmark::DoNotOptimize(clean_image(copy, options, true));
+  }
+  count_voxels(state, image);
+}
+
+void BccLattice(benchmark::State& state) {
+  const LabelImage& image = prepared(static_cast<int>(state.range(0))).image;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(build_bcc_lattice(image, {10, 1}));
+  }
+  count_voxels(state, image);
+}
+
+void AdaptiveRefinement(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  const Lattice coarse = build_bcc_lattice(p.image, {10, 1});
+  for (auto _ : state) {
+    Lattice lattice = coarse;
+    benchmark::DoNotOptimize(refine_lattice(lattice, p.image, refine_options(), [](int, std::size_t) {}));
+  }
+  count_tets(state, p.refined.mesh.tets.size());
+}
+
+void ExtractTets(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(extract_tets(p.lattice));
+  }
+  count_tets(state, p.refined.mesh.tets.size());
+}
+
+void TetNeighbours(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(tet_neighbours(p.refined.mesh.tets.nodes, p.points.size()));
+  }
+  count_tets(state, p.refined.mesh.tets.size());
+}
+
+void TopologyChecks(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    CandidateMesh mesh = p.refined.mesh;
+    benchmark::DoNotOptimize(check_topology(mesh, p.points, p.image, {}));
+  }
+  count_tets(state, p.refined.mesh.tets.size());
+}
+
+void Deformation(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  DeformOptions options;
+  options.iterations = 1;
+  for (auto _ : state) {
+    MaterialMesh mesh = p.mesh;
+    benchmark::DoNotOptimize(deform_mesh(mesh, p.image, options, [](int) {}));
+  }
+  count_tets(state, p.mesh.tets.size());
+}
+
+void all_sizes(benchmark::internal::Benchmark* benchmark) {
+  for (const int size : kSizes) {
+    benchmark->Arg(size);
+  }
+  benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+BENCHMARK(CleanImage)->Apply(all_sizes);
+BENCHMARK(BccLattice)->Apply(all_sizes);
+BENCHMARK(AdaptiveRefinement)->Apply(all_sizes);
+BENCHMARK(ExtractTets)->Apply(all_sizes);
+BENCHMARK(TetNeighbours)->Apply(all_sizes);
+BENCHMARK(TopologyChecks)->Apply(all_sizes);
+BENCHMARK(Deformation)->Apply(all_sizes);
+
+}  // namespace
+}  // namespace cbc3d
+
+BENCHMARK_MAIN();
