@@ -116,9 +116,10 @@ void ElasticSystem::assemble_row(const MaterialMesh& mesh, std::size_t v, bool s
       const auto place = static_cast<std::size_t>(
           std::lower_bound(column_.begin() + begin, column_.begin() + end, tet[n]) - column_.begin() - begin);
       const double diagonal = mu * ga.dot(gb);
+      std::size_t entry = 0;
       for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) {
-          sums[place][static_cast<std::size_t>(3 * r + c)] +=
+          sums[place][entry++] +=
               g.volume * (lambda * ga[r] * gb[c] + mu * gb[r] * ga[c] + (r == c ? diagonal : 0));
         }
       }

@@ -106,6 +106,45 @@ TEST_F(Command, RefusesBadInputWithOneLine) {
   expect_refusal("mush", "--help");
 }
 
+std::string nrrd(const std::string& fields, const std::string& data) {
+  return "NRRD0004\nendian: little\nencoding: raw\n" + fields + "\n" + data;
+}
+
+TEST_F(Command, RefusesImagesThatAreNoLabelVolumes) {
+  const auto expect_refused = [this](const std::string& name, const std::string& bytes,
+                                     const std::string& says) {
+    std::ofstream(at(name), std::ios::binary) << bytes;
+    expect_refusal("mesh " + at(name) + " --out " + at("m.vtu"), says);
+  };
+  expect_refused("flat.nrrd", nrrd("type: uchar\ndimension: 2\nsizes: 2 2\n", "abcd"), "2-dimensional");
+  expect_refused("colour.nrrd",
+                 nrrd("type: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain domain\n",
+                      std::string(24, 'a')),
+                 "colour");
+  expect_refused("empty.nrrd", nrrd("type: uchar\ndimension: 3\nsizes: 2 2 2\n", std::string(8, '\0')),
+                 "background");
+  const float half[8] = {0, 1, 2, 0.5F, 0, 0, 1, 1};
+  expect_refused("half.nrrd",
+                 nrrd("type: float\ndimension: 3\nsizes: 2 2 2\n",
+                      std::string(reinterpret_cast<const char*>(half), sizeof(half))),
+                 "0.5");
+  expect_refused("short.nrrd", nrrd("type: uchar\ndimension: 3\nsizes: 20 20 20\n", "abc"), "short.nrrd");
+}
+
+TEST_F(Command, CleansAnImageAndTellsWhatItChanged) {
+  LabelImage image = testing::ball_image(24, 1, 8);
+  image.voxels[image.frame.offset(1, 1, 1)] = image.voxels[image.frame.offset(2, 2, 1)] =
+      1;  // an edge contact
+  write_label_image(image, at("edge.nii.gz"));
+  const Outcome outcome = run("clean " + at("edge.nii.gz") + " --region-tolerance 0 --out " +
+                              at("clean.nii.gz") + " --report " + at("c.json"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("1 edge contacts removed"), std::string::npos) << outcome.text;
+  const LabelImage clean = read_label_image(at("clean.nii.gz"));
+  EXPECT_EQ(clean.voxels_per_material()[1], image.voxels_per_material()[1] + 1);
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(bytes_of(at("c.json")))["labels"][0]["volume_change_mm3"], 1);
+}
+
 TEST_F(Command, LeavesAnOlderOutputAloneWhenItFails) {
   std::ofstream(at("old.vtu")) << "old";
   EXPECT_EQ(run("mesh " + at("absent.nii") + " --out " + at("old.vtu")).exit_code, 2);
