@@ -13,22 +13,24 @@ constexpr const char* kSwitch = "true|false";
 
 std::vector<ParameterSpec> parameters() {
   return {
-      {"lattice-spacing", "preset", "mm", "edge of the coarsest lattice cells"},
-      {"fidelity", "preset", "", "share of a boundary cell that its material must fill, F"},
-      {"max-distance", "off", "mm", "largest two-sided distance allowed between mesh and image"},
-      {"relabel-noise", "preset", "none|holes|specks|both", "which unconnected voxel groups are relabelled"},
-      {"region-tolerance", "1e-4", "", "share of its material below which an unconnected group is noise"},
-      {"iterations", "preset", "", "iterations of the deformation"},
-      {"connectivity", "preset", "vertex|edge|face|no",
-       "which target points a surface vertex is matched with"},
-      {"young-pa", "preset", "Pa", "Young's modulus of the elastic body"},
-      {"poisson", "preset", "", "Poisson's ratio of the elastic body"},
-      {"min-dihedral", "preset", "deg", "dihedral angle that every element must keep"},
-      {"min-scaled-jacobian", "preset", "", "scaled Jacobian that every element must keep"},
-      {"seed", "preset", "", "of every pseudo-random choice"},
-      {"topology-checks", "false", kSwitch, "decimate only where the topology is kept"},
-      {"mixed", "false", kSwitch, "hexes and transition elements where the lattice allows"},
-      {"no-manifold-voxels", "false", kSwitch, "leave non-manifold voxel contacts as they are"},
+      {"relabel-noise", "none", "none|holes|specks|both", "isolated voxels given their neighbours' label"},
+      {"region-tolerance", "preset", "", "regions below this share of their label become background"},
+      {"no-manifold-voxels", "false", kSwitch, "leave voxels that touch only by an edge or a vertex"},
+      {"seed", "1", "", "of the choice among cleaning templates"},
+      {"lattice-spacing", "ten voxels", "mm", "edge of the coarsest lattice cubes"},
+      {"finest-spacing", "smallest voxel spacing", "mm", "the fidelity makes the lattice no finer"},
+      {"fidelity", "0.95", "", "F: refine a material while its F1 or F2 is below"},
+      {"material-fidelity", "none", "LABEL=F", "the fidelity of one label"},
+      {"max-distance", "preset", "mm",
+       "refine where a boundary voxel has no interface vertex so near; 0: off"},
+      {"topology-checks", "false", kSwitch, "make every label's sub-mesh a manifold without crumbs"},
+      {"iterations", "5", "", "iterations of the deformation"},
+      {"connectivity", "no", "vertex|edge|face|no", "pattern that thins the target points"},
+      {"target-position", "preset", "voxel-centre|voxel-faces", "where the targets lie"},
+      {"on-failure", "preset", "stop|recover", "what happens where elements stay below the minimum quality"},
+      {"young-pa", "2100", "Pa", "Young's modulus"},
+      {"poisson", "0.45", "", "Poisson's ratio"},
+      {"min-dihedral", "5", "deg", "smallest dihedral angle that the deformation keeps"},
   };
 }
 
@@ -46,9 +48,7 @@ void append_parameter(std::vector<std::string>& argv, const std::string& mesher,
   }
   if (value != "true" && value != "false")
     throw InputError(mesher + "." + key + "=" + value + ": a switch; give true or false");
-  const bool given = std::find(argv.begin(), argv.end(), "--" + key) != argv.end();
-  if (value == "true" && !given) argv.push_back("--" + key);
-  if (value == "false" && given) argv.erase(std::find(argv.begin(), argv.end(), "--" + key));
+  if (value == "true") argv.push_back("--" + key);
 }
 
 // `options`: what tells this adapter from the others, put before the job's parameters.

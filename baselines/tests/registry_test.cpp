@@ -75,11 +75,9 @@ TEST(Registry, SwitchesOfCbc3dAreGivenBare) {
   EXPECT_EQ(std::count(on.begin(), on.end(), "--topology-checks"), 1);
   EXPECT_EQ(std::count(on.begin(), on.end(), "true"), 0);
   EXPECT_TRUE(has_sequence(on, {"--iterations", "5"}));
-  const Argv off = command_of("cbc3d-mixed", {{"mixed", "false"}});
-  EXPECT_EQ(std::count(off.begin(), off.end(), "--mixed"), 0);
-  const Argv twice = command_of("cbc3d-mixed", {{"mixed", "true"}});
-  EXPECT_EQ(std::count(twice.begin(), twice.end(), "--mixed"), 1);
-  EXPECT_THROW(command_of("cbc3d", {{"mixed", "yes"}}), InputError);
+  const Argv off = command_of("cbc3d", {{"topology-checks", "false"}});
+  EXPECT_EQ(std::count(off.begin(), off.end(), "--topology-checks"), 0);
+  EXPECT_THROW(command_of("cbc3d", {{"topology-checks", "yes"}}), InputError);
 }
 
 TEST(Registry, UnknownParameterNamesTheKnownOnes) {

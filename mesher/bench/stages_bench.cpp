@@ -48,9 +48,7 @@ const Prepared& prepared(int size) {
     p.image = phantom(size);
     p.lattice = build_bcc_lattice(p.image, {10, 1});
     p.refined = refine_lattice(p.lattice, p.image, refine_options(), [](int, std::size_t) {});
-    for (const LatticePoint& v : p.lattice.points) {
-      p.points.push_back(p.lattice.frame.local(v));
-    }
+    p.points = local_points(p.lattice);
     p.mesh = discard_background(p.points, p.refined.mesh.tets.nodes, p.refined.mesh.materials);
   }
   return p;

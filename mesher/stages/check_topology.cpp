@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "mesher/stages/size_rank.hpp"
 #include "mesher/stages/vertex_star.hpp"
 
 namespace cbc3d {
@@ -35,25 +35,6 @@ std::vector<ClassId> classes_of_tets(const Classes& classes, const std::vector<M
     result[t] = classes.of_material[materials[t]];
   }
   return result;
-}
-
-/// Background highest, then the fewer voxels the higher.
-std::vector<std::uint32_t> ranks(const Classes& classes, const LabelImage& image) {
-  std::vector<std::size_t> voxels(classes.label.size(), 0);
-  const std::vector<std::size_t> of_material = image.voxels_per_material();
-  for (std::size_t m = 1; m < of_material.size(); ++m) {
-    voxels[classes.of_material[m]] += of_material[m];
-  }
-  std::vector<std::uint32_t> order(voxels.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin() + 1, order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return voxels[a] > voxels[b]; });
-  std::vector<std::uint32_t> rank(order.size());
-  rank[0] = static_cast<std::uint32_t>(order.size());
-  for (std::uint32_t place = 1; place < order.size(); ++place) {
-    rank[order[place]] = place;
-  }
-  return rank;
 }
 
 bool is_manifold_everywhere(VertexStar& star) {
@@ -93,7 +74,7 @@ class Repair {
         image_(image),
         options_(options),
         classes_(image.labels),
-        rank_(ranks(classes_, image)),
+        rank_(rank_by_size(image, classes_.of_material, BackgroundRank::highest)),
         around_(tets_of_vertices(mesh.tets.nodes, points.size())),
         class_of_tet_(classes_of_tets(classes_, mesh.materials)),
         star_(around_, mesh.tets.nodes, mesh.neighbours) {

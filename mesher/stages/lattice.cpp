@@ -64,4 +64,13 @@ VertexId Lattice::vertex_at(const LatticePoint& point) {
   return vertex;
 }
 
+std::vector<Vec3> local_points(const Lattice& lattice) {
+  std::vector<Vec3> points(lattice.points.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    points[v] = lattice.frame.local(lattice.points[v]);
+  }
+  return points;
+}
+
 }  // namespace cbc3d

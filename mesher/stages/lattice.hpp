@@ -81,6 +81,9 @@ struct Lattice {
   VertexId vertex_at(const LatticePoint& point);
 };
 
+/// The lattice's vertices in local mm.
+std::vector<Vec3> local_points(const Lattice& lattice);
+
 /// A conforming mesh of the lattice: its red leaves and the green pieces of those with split edges.
 struct LatticeTets {
   std::vector<std::array<VertexId, 4>> nodes;  ///< positively oriented

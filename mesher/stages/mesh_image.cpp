@@ -49,15 +49,6 @@ class StageLog {
   MeshImageReport& report_;
 };
 
-std::vector<Vec3> local_points(const Lattice& lattice) {
-  std::vector<Vec3> points;
-  points.reserve(lattice.points.size());
-  for (const LatticePoint& p : lattice.points) {
-    points.push_back(lattice.frame.local(p));
-  }
-  return points;
-}
-
 /// A lattice as a mesh to look at: every tet, labelled 1.
 MaterialMesh as_material_mesh(const Lattice& lattice) {
   const LatticeTets tets = extract_tets(lattice);

@@ -10,26 +10,18 @@
 #include "mesher/stages/coverage.hpp"
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/select_candidate.hpp"
+#include "mesher/stages/size_rank.hpp"
 #include "mesher/stages/voxel_raster.hpp"
 
 namespace cbc3d {
 namespace {
-
-std::vector<Vec3> local_points(const Lattice& lattice) {
-  std::vector<Vec3> points(lattice.points.size());
-#pragma omp parallel for
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    points[v] = lattice.frame.local(lattice.points[v]);
-  }
-  return points;
-}
 
 class Refiner {
  public:
   Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options)
       : lattice_(lattice), image_(image), options_(options), raster_(image.frame, lattice.frame) {
     const std::vector<std::size_t> voxels = image.voxels_per_material();
-    rank_ = rank_by_size(image, voxels);
+    rank_ = rank_by_size(image, BackgroundRank::highest);
     for (std::size_t m = 0; m < voxels.size(); ++m) {
       const auto own = options.material_fidelity.find(image.labels[m]);
       result_.fidelity.push_back({static_cast<MaterialId>(m), image.labels[m],

@@ -111,24 +111,4 @@ std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours
   return Selector(neighbours, rank, materials).run();
 }
 
-std::vector<std::uint32_t> rank_by_size(const LabelImage& image,
-                                        const std::vector<std::size_t>& voxels_per_material) {
-  std::vector<std::size_t> first_voxel(voxels_per_material.size(), image.voxels.size());
-  for (std::size_t v = image.voxels.size(); v-- > 0;) {
-    first_voxel[image.voxels[v]] = v;
-  }
-  std::vector<std::uint32_t> order(voxels_per_material.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin() + 1, order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return voxels_per_material[a] != voxels_per_material[b] ? voxels_per_material[a] > voxels_per_material[b]
-                                                            : first_voxel[a] < first_voxel[b];
-  });
-  std::vector<std::uint32_t> rank(order.size());
-  rank[kBackground] = static_cast<std::uint32_t>(order.size());
-  for (std::size_t place = 1; place < order.size(); ++place) {
-    rank[order[place]] = static_cast<std::uint32_t>(place);
-  }
-  return rank;
-}
-
 }  // namespace cbc3d

@@ -16,13 +16,9 @@ namespace cbc3d {
 /// Ties between two labelled materials go to the one with fewer tets (so that thin structures survive),
 /// whatever their numbers; ties with background go to background, as the paper's rule asks. Every step either
 /// removes interface faces or moves a tet to the preferred side of a tie, so the sweeps end. `rank[m]`:
-/// preference of material m in ties, higher wins; see rank_by_size. Returns how many tets were relabelled.
+/// preference of material m in ties, higher wins; rank_by_size with background highest. Returns how many tets
+/// were relabelled.
 std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours,
                              const std::vector<std::uint32_t>& rank, std::vector<MaterialId>& materials);
-
-/// Ranks for select_candidate from the voxel counts: background highest, then the smaller the material the
-/// higher. Equal counts rank by the material's first voxel in raster order, not by its label value.
-std::vector<std::uint32_t> rank_by_size(const LabelImage& image,
-                                        const std::vector<std::size_t>& voxels_per_material);
 
 }  // namespace cbc3d

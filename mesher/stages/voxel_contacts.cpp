@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <optional>
 #include <vector>
+
+#include "mesher/stages/size_rank.hpp"
 
 namespace cbc3d {
 namespace {
@@ -20,25 +21,12 @@ std::uint64_t mix(std::uint64_t h) {
   return h ^ (h >> 31U);
 }
 
-std::vector<std::uint32_t> priorities(const LabelImage& image) {
-  const std::vector<std::size_t> voxels = image.voxels_per_material();
-  std::vector<std::uint32_t> order(voxels.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin() + 1, order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return voxels[a] > voxels[b]; });
-  std::vector<std::uint32_t> priority(order.size());
-  for (std::uint32_t place = 0; place < order.size(); ++place) {
-    priority[order[place]] = place;
-  }
-  return priority;
-}
-
 class ContactRemover {
  public:
   ContactRemover(LabelImage& image, std::uint64_t seed)
       : image_(image),
         seed_(seed),
-        priority_(priorities(image)),
+        priority_(rank_by_size(image, BackgroundRank::lowest)),
         step_{1, static_cast<std::size_t>(image.frame.size[0]),
               static_cast<std::size_t>(image.frame.size[0]) * static_cast<std::size_t>(image.frame.size[1])} {
   }
