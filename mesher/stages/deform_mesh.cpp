@@ -37,10 +37,13 @@ class Deformer {
   void extract_points() {
     LabelSets sets;
     sources_ = extract_source_points(mesh_, sets);
-    targets_ = extract_target_points(image_, options_.connectivity, options_.target_position, sets);
+    targets_ = extract_target_points(image_, options_.connectivity, sets);
     report_.sources = sources_.size();
     report_.targets = targets_.targets.size();
     around_ = tets_of_vertices(mesh_.tets, mesh_.points.size());
+    if (options_.target_position == TargetPosition::voxel_faces) {
+      faces_ = interface_faces(mesh_);
+    }
   }
 
   /// D: for each source the mean of the vectors to the targets of its label set within the local element
@@ -48,6 +51,7 @@ class Deformer {
   void displacements_of_sources() {
     std::fill(is_source_.begin(), is_source_.end(), 0);
     std::fill(load_.begin(), load_.end(), Vec3{});
+    update_normals();
 #pragma omp parallel for schedule(dynamic, 256)
     for (std::size_t s = 0; s < sources_.size(); ++s) {
       Vec3 mean;
@@ -65,6 +69,52 @@ class Deformer {
       }
     }
     now().mean_displacement_mm /= std::max<double>(1, static_cast<double>(now().matched_sources));
+  }
+
+  /// Area-weighted normals of the interface at its vertices, from the lower material number to the higher.
+  void update_normals() {
+    normals_.assign(mesh_.points.size(), {});
+    for (const InterfaceFace& f : faces_) {
+      const Vec3& corner = mesh_.points[f[0]];
+      const Vec3 area = (mesh_.points[f[1]] - corner).cross(mesh_.points[f[2]] - corner);
+      for (const VertexId v : f) {
+        normals_[v] += area;
+      }
+    }
+    for (Vec3& n : normals_) {
+      n = n.normalized();
+    }
+  }
+
+  /// Weighted sum of the vectors to what the targets offer a source.
+  struct Pull {
+    Vec3 sum;
+    double weight = 0;
+    void add(const Vec3& vector, double w) {
+      sum += w * vector;
+      weight += w;
+    }
+  };
+
+  void add_target(const SourcePoint& source, const TargetPoint& t, const Vec3& to_centre, double radius,
+                  Pull& pull) const {
+    if (options_.target_position == TargetPosition::voxel_centre) {
+      if (to_centre.squared_norm() <= radius * radius) {
+        pull.add(to_centre, 1);
+      }
+      return;
+    }
+    const Vec3 outward = t.lower_side ? normals_[source.vertex] : -normals_[source.vertex];
+    for (unsigned f = 0; f < 6; ++f) {
+      const int axis = static_cast<int>(f / 2);
+      const double side = f % 2 == 0 ? -1 : 1;
+      const double weight = source.two_sided ? side * outward[axis] : 1;
+      Vec3 to_face = to_centre;
+      to_face[axis] += 0.5 * side * image_.frame.spacing_mm[axis];
+      if ((t.faces >> f & 1U) != 0 && weight > 0 && to_face.squared_norm() <= radius * radius) {
+        pull.add(to_face, weight);
+      }
+    }
   }
 
   /// Mean length of the edges at a vertex, each counted once a tet.
@@ -89,26 +139,23 @@ class Deformer {
       return std::min(frame.size[static_cast<std::size_t>(d)] - 1,
                       static_cast<int>(std::ceil((s[d] + radius) / frame.spacing_mm[d])));
     };
-    Vec3 sum;
-    int count = 0;
+    Pull pull;
     for (int k = first_index(2); k <= last_index(2); ++k) {
       for (int j = first_index(1); j <= last_index(1); ++j) {
-        const std::size_t r = static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
-                              static_cast<std::size_t>(j);
-        const auto* const row_end = targets_.targets.data() + targets_.first[r + 1];
-        const auto* t = std::lower_bound(targets_.targets.data() + targets_.first[r], row_end, first_index(0),
-                                         [](const TargetPoint& a, int i) { return a.i < i; });
+        const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
+                                static_cast<std::size_t>(j);
+        const auto* const row_end = targets_.targets.data() + targets_.first[row + 1];
+        const auto* t = std::lower_bound(targets_.targets.data() + targets_.first[row], row_end,
+                                         first_index(0), [](const TargetPoint& a, int i) { return a.i < i; });
         for (; t != row_end && t->i <= last_index(0); ++t) {
-          const Vec3 to_target = t->position_mm - s;
-          if (t->set == source.set && to_target.squared_norm() <= radius * radius) {
-            sum += to_target;
-            ++count;
+          if (t->set == source.set) {
+            add_target(source, *t, frame.local_centre(t->i, j, k) - s, radius, pull);
           }
         }
       }
     }
-    mean = count > 0 ? sum / count : Vec3{};
-    return count > 0;
+    mean = pull.weight > 0 ? pull.sum / pull.weight : Vec3{};
+    return pull.weight > 0;
   }
 
   /// Solves, checks every tet, scales the displacements around failing ones and solves again; then recovers.
@@ -200,6 +247,8 @@ class Deformer {
   std::vector<SourcePoint> sources_;
   TargetPoints targets_;
   VertexTets around_;
+  std::vector<InterfaceFace> faces_;  // only where normals are needed
+  std::vector<Vec3> normals_;
   std::vector<Vec3> displacement_;  // U
   std::vector<Vec3> load_;          // H^T D
   std::vector<std::uint8_t> is_source_;

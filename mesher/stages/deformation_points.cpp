@@ -107,25 +107,16 @@ void thin(std::vector<std::vector<int>>& rows, const ImageFrame& frame, Connecti
   }
 }
 
-Vec3 target_position(const LabelImage& image, int i, int j, int k, TargetPosition position) {
-  const Vec3 centre = image.frame.local_centre(i, j, k);
-  if (position == TargetPosition::voxel_centre) {
-    return centre;
-  }
+/// The faces of a voxel towards other materials, as TargetPoint::faces.
+std::uint8_t open_faces(const LabelImage& image, int i, int j, int k) {
   const MaterialId own = image.at(i, j, k);
-  Vec3 shift;
-  int faces = 0;
-  for (int d = 0; d < 3; ++d) {
-    for (const int side : {-1, 1}) {
-      Index3 n = {i, j, k};
-      n[static_cast<std::size_t>(d)] += side;
-      if (image.at_or_background(n[0], n[1], n[2]) != own) {
-        shift[d] += 0.5 * side * image.frame.spacing_mm[d];
-        ++faces;
-      }
-    }
+  unsigned faces = 0;
+  for (unsigned f = 0; f < 6; ++f) {
+    Index3 n = {i, j, k};
+    n[f / 2] += f % 2 == 0 ? -1 : 1;
+    faces |= image.at_or_background(n[0], n[1], n[2]) != own ? 1U << f : 0U;
   }
-  return faces == 0 ? centre : centre + shift / faces;
+  return static_cast<std::uint8_t>(faces);
 }
 
 std::vector<MaterialId> materials_around(const LabelImage& image, int i, int j, int k) {
@@ -146,6 +137,27 @@ std::vector<MaterialId> materials_around(const LabelImage& image, int i, int j, 
 
 }  // namespace
 
+std::vector<InterfaceFace> interface_faces(const MaterialMesh& mesh) {
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  std::vector<InterfaceFace> faces;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const TetId neighbour = neighbours[t][n];
+      const MaterialId across = neighbour == kNoTet ? kBackground : mesh.materials[neighbour];
+      if (across == mesh.materials[t]) {
+        continue;
+      }
+      const auto& corner = kTetFace[n];
+      InterfaceFace face = {mesh.tets[t][corner[0]], mesh.tets[t][corner[1]], mesh.tets[t][corner[2]]};
+      if (mesh.materials[t] > across) {
+        std::swap(face[1], face[2]);
+      }
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
 std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSets& sets) {
   const std::vector<std::uint8_t> mark = interface_vertices(mesh);
   const VertexTets around = tets_of_vertices(mesh.tets, mesh.points.size());
@@ -161,14 +173,13 @@ std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSe
         set.push_back(kBackground);
       }
       sort_unique(set);
-      sources.push_back({static_cast<VertexId>(v), sets.number_of(set)});
+      sources.push_back({static_cast<VertexId>(v), sets.number_of(set), set.size() == 2});
     }
   }
   return sources;
 }
 
-TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity,
-                                   TargetPosition position, LabelSets& sets) {
+TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, LabelSets& sets) {
   std::vector<std::vector<int>> rows = boundary_rows(image);
   thin(rows, image.frame, connectivity);
   TargetPoints points;
@@ -177,8 +188,9 @@ TargetPoints extract_target_points(const LabelImage& image, Connectivity connect
     const int j = static_cast<int>(r % static_cast<std::size_t>(image.frame.size[1]));
     const int k = static_cast<int>(r / static_cast<std::size_t>(image.frame.size[1]));
     for (const int i : rows[r]) {
+      const std::vector<MaterialId> set = materials_around(image, i, j, k);
       points.targets.push_back(
-          {i, sets.number_of(materials_around(image, i, j, k)), target_position(image, i, j, k, position)});
+          {i, sets.number_of(set), open_faces(image, i, j, k), image.at(i, j, k) == set.front()});
     }
     points.first[r + 1] = points.targets.size();
   }

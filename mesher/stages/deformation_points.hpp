@@ -6,6 +6,7 @@
 //           are matched.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -20,7 +21,9 @@ enum class Connectivity { vertex, edge, face, no };
 /// Where a target lies.
 enum class TargetPosition {
   voxel_centre,  ///< the paper's: the centre of the boundary voxel, half a voxel inside the boundary
-  voxel_faces,   ///< the mean of the voxel's faces towards other materials: on the boundary
+  voxel_faces,   ///< the centres of the voxel's faces towards other materials, as far as they look the way of
+                ///< the source's surface: on the boundary, and the far side of a thin wall or wire pulls
+                ///< nothing
 };
 
 /// Numbers label sets, so that equality is one comparison.
@@ -37,7 +40,15 @@ class LabelSets {
 struct SourcePoint {
   VertexId vertex;
   std::uint32_t set;
+  bool two_sided;  ///< exactly two materials meet, so that the surface has a normal
 };
+
+/// A mesh face between two materials, nodes ordered so that its right-hand normal points from the lower
+/// material number to the higher.
+using InterfaceFace = std::array<VertexId, 3>;
+
+/// All interface and surface faces of a mesh; those between two labelled materials occur twice.
+std::vector<InterfaceFace> interface_faces(const MaterialMesh& mesh);
 
 /// The source points of a mesh, ascending by vertex.
 std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSets& sets);
@@ -45,7 +56,9 @@ std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSe
 struct TargetPoint {
   std::int32_t i;  ///< voxel index along x; (j, k) is told by the row
   std::uint32_t set;
-  Vec3 position_mm;  ///< local mm
+  std::uint8_t
+      faces;  ///< bit 2 * axis (+ 1): the face towards smaller (larger) indices has another material behind
+  bool lower_side;  ///< the voxel's material is the lower of a set of two
 };
 
 /// Target points in rows of voxels: targets[first[r]] ... of row r = k * size_y + j, ascending in i.
@@ -58,7 +71,6 @@ struct TargetPoints {
 /// accepted voxel bars its 26 (vertex), 18 (edge) or 6 (face) neighbours; "no" accepts all. A boundary voxel
 /// has a face neighbour of another material; its set are the materials in its 26-neighbourhood. Same result
 /// at any thread count.
-TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity,
-                                   TargetPosition position, LabelSets& sets);
+TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, LabelSets& sets);
 
 }  // namespace cbc3d

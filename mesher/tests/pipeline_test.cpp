@@ -83,6 +83,16 @@ TEST(MeshImage, BallSurfaceLiesNearTheSphere) {
   EXPECT_LT(farthest, 0.9);  // below a voxel; its voxels themselves are up to .87 away
 }
 
+TEST(MeshImage, AThinPlateKeepsItsThickness) {
+  // Targets on both sides of a plate of two voxels lie within reach of every surface vertex; the far side
+  // must not pull.
+  const LabelImage image = testing::make_image({40, 40, 20}, {1, 1, 1}, 1, [](const Vec3& p) {
+    return p.x > 4 && p.x < 35 && p.y > 4 && p.y < 35 && p.z > 8.5 && p.z < 10.5 ? 1 : 0;
+  });
+  const double truth = static_cast<double>(image.voxels_per_material()[1]);
+  EXPECT_NEAR(volume_of(mesh_of(image), 1), truth, 0.1 * truth);
+}
+
 TEST(MeshImage, SameBytesAtOneAndTwoThreads) {
   for (const char* preset : {"quality", "paper"}) {
     const LabelImage image = testing::ball_image(40, 1.1, 15, 7);
