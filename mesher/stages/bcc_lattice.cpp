@@ -59,8 +59,8 @@ struct Grid {
   int cell_units = 2;
 };
 
-/// One layer of cells more than the box needs on every side, the whole centred on it, so that a symmetric
-/// object gets a symmetric lattice and no labelled voxel lies outside it.
+/// Two layers of cells more than the box needs on every side (room for the tets around those that hold
+/// labelled voxels), the whole centred on it, so that a symmetric object gets a symmetric lattice.
 Grid make_grid(const LabelImage& image, const BccLatticeOptions& options) {
   const Box box = labelled_box(image);
   Grid grid;
@@ -72,7 +72,7 @@ Grid make_grid(const LabelImage& image, const BccLatticeOptions& options) {
     const auto axis = static_cast<std::size_t>(d);
     const double extent = (box.high[axis] - box.low[axis] + 1) * image.frame.spacing_mm[d];
     centre[axis] = 0.5 * (box.high[axis] + box.low[axis]) * image.frame.spacing_mm[d];
-    const double needed = std::ceil(extent / options.spacing_mm) + 2;
+    const double needed = std::ceil(extent / options.spacing_mm) + 4;
     if (needed * 2 >= static_cast<double>(1 << kCoordinateBits)) {
       throw InputError("--lattice-spacing " + std::to_string(options.spacing_mm) +
                        " mm is too small for this image; give at least " + std::to_string(extent / 1e5) +
@@ -139,34 +139,43 @@ bool holds_labelled_voxel(const LabelImage& image, const VoxelRaster& raster, co
   return found;
 }
 
-/// Which of the 12 tets of a cell (4 a face, 3 upper faces) hold a labelled voxel: bit 4 * axis + edge.
-std::uint16_t labelled_tets(const LabelImage& image, const VoxelRaster& raster, const Grid& grid,
-                            const Index3& cell) {
+/// Which of the 12 tets of a cell (4 a face, 3 upper faces) are wanted: bit 4 * axis + edge.
+template <typename Wanted>
+std::uint16_t select_tets(const Grid& grid, const Index3& cell, const Wanted& wanted) {
   unsigned bits = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (cell[axis] + 1 < grid.cells[axis]) {
       const auto tets = tets_across_face(grid, cell, axis);
       for (unsigned e = 0; e < 4; ++e) {
-        bits |=
-            holds_labelled_voxel(image, raster, tets[e]) ? 1U << (4 * static_cast<unsigned>(axis) + e) : 0U;
+        bits |= wanted(tets[e]) ? 1U << (4 * static_cast<unsigned>(axis) + e) : 0U;
       }
     }
   }
   return static_cast<std::uint16_t>(bits);
 }
 
-void add_tets(Lattice& lattice, const Grid& grid, const Index3& cell, std::uint16_t bits) {
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const unsigned of_axis = (bits >> (4 * axis)) & 15U;
-    if (of_axis != 0) {
-      const auto tets = tets_across_face(grid, cell, axis);
+/// select_tets for every cell, in parallel.
+template <typename Wanted>
+std::vector<std::uint16_t> select_everywhere(const Grid& grid, const Wanted& wanted) {
+  const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
+  std::vector<std::uint16_t> bits(cells.voxel_count());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::size_t c = 0; c < bits.size(); ++c) {
+    bits[c] = select_tets(grid, cells.index_of(c), wanted);
+  }
+  return bits;
+}
+
+/// Calls action(tet) for the chosen tets, in the order of the cells.
+template <typename Action>
+void for_each_chosen(const Grid& grid, const std::vector<std::uint16_t>& chosen, const Action& action) {
+  const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
+  for (std::size_t c = 0; c < chosen.size(); ++c) {
+    for (unsigned axis = 0; axis < 3 && chosen[c] != 0; ++axis) {
+      const auto tets = tets_across_face(grid, cells.index_of(c), axis);
       for (unsigned e = 0; e < 4; ++e) {
-        if ((of_axis >> e & 1U) != 0) {
-          RedTet red;
-          for (std::size_t n = 0; n < 4; ++n) {
-            red.nodes[n] = lattice.vertex_at(tets[e][n]);
-          }
-          lattice.reds.push_back(red);
+        if ((chosen[c] >> (4 * axis + e) & 1U) != 0) {
+          action(tets[e]);
         }
       }
     }
@@ -177,20 +186,30 @@ void add_tets(Lattice& lattice, const Grid& grid, const Index3& cell, std::uint1
 
 Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& options) {
   const Grid grid = make_grid(image, options);
+  const VoxelRaster raster(image.frame, grid.frame);
+  const auto labelled =
+      select_everywhere(grid, [&](const PointTet& tet) { return holds_labelled_voxel(image, raster, tet); });
+
+  VertexTable labelled_nodes;
+  for_each_chosen(grid, labelled, [&](const PointTet& tet) {
+    for (const LatticePoint& node : tet) {
+      labelled_nodes.find_or_insert(node, 0);
+    }
+  });
+  const auto kept = select_everywhere(grid, [&](const PointTet& tet) {
+    return std::any_of(tet.begin(), tet.end(),
+                       [&](const LatticePoint& node) { return labelled_nodes.find(node) != kNoVertex; });
+  });
+
   Lattice lattice;
   lattice.frame = grid.frame;
-  const VoxelRaster raster(image.frame, grid.frame);
-  const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
-  std::vector<std::uint16_t> kept(cells.voxel_count());
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::size_t c = 0; c < kept.size(); ++c) {
-    kept[c] = labelled_tets(image, raster, grid, cells.index_of(c));
-  }
-  for (std::size_t c = 0; c < kept.size(); ++c) {
-    if (kept[c] != 0) {
-      add_tets(lattice, grid, cells.index_of(c), kept[c]);
+  for_each_chosen(grid, kept, [&](const PointTet& tet) {
+    RedTet red;
+    for (std::size_t n = 0; n < 4; ++n) {
+      red.nodes[n] = lattice.vertex_at(tet[n]);
     }
-  }
+    lattice.reds.push_back(red);
+  });
   return lattice;
 }
 

@@ -13,8 +13,10 @@ struct BccLatticeOptions {
 };
 
 /// Covers the labelled voxels of `image` with BCC tets, in the image's local frame and centred on the
-/// labelled region, and leaves out the tets that hold no labelled voxel. Throws InputError when the spacing
-/// is so small for this image that the lattice cannot be indexed.
+/// labelled region, and leaves out the tets wholly outside. A ring of tets round those that hold labelled
+/// voxels is kept until the background is discarded: so every vertex near a surface has its whole star, which
+/// the topological checks rely on. Throws InputError when the spacing is so small for this image that the
+/// lattice cannot be indexed.
 Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& options);
 
 /// The spacing that is taken where none is given: ten times the geometric mean of the voxel spacing, which is

@@ -116,6 +116,30 @@ TEST(BccLattice, InnerVerticesHave24TetsAnd14Edges) {
   EXPECT_GT(inner, 20U);
 }
 
+TEST(BccLattice, TetsWithLabelledVoxelsHaveTheWholeStarsOfTheirVertices) {
+  const LabelImage image =
+      testing::noise_image(40, 0.0005, 8);  // sparse: few tets hold a voxel, and far apart
+  const Lattice lattice = lattice_of(image, 5, 5);
+  const LatticeTets tets = extract_tets(lattice);
+  const VertexTets around = tets_of_vertices(tets.nodes, lattice.points.size());
+  const VoxelRaster raster(image.frame, lattice.frame);
+  std::size_t labelled = 0;
+  for (const auto& n : tets.nodes) {
+    bool holds = false;
+    raster.for_each_row(
+        {lattice.points[n[0]], lattice.points[n[1]], lattice.points[n[2]], lattice.points[n[3]]},
+        [&](int j, int k, int begin, int end) {
+          for (int i = begin; i < end; ++i) holds = holds || image.at(i, j, k) != kBackground;
+        });
+    for (std::size_t c = 0; holds && c < 4; ++c) {
+      ++labelled;
+      EXPECT_EQ(around.first[n[c] + 1] - around.first[n[c]], 24U);
+    }
+  }
+  EXPECT_GT(labelled, 20U);
+  EXPECT_LT(labelled, tets.size());
+}
+
 TEST(RedGreen, RandomRefinementStaysConformingWithinTheTemplatesAngles) {
   const LabelImage image = testing::ball_image(24, 1, 9);
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
