@@ -31,7 +31,6 @@ class LabelSets {
  public:
   /// The number of a set given as ascending distinct materials.
   std::uint32_t number_of(const std::vector<MaterialId>& set);
-  [[nodiscard]] std::size_t size() const { return numbers_.size(); }
 
  private:
   std::map<std::vector<MaterialId>, std::uint32_t> numbers_;

@@ -141,6 +141,21 @@ TEST(MeshImage, MeetsFidelityOrSaysWhyNot) {
   for (const MaterialFidelity& f : report.refine.fidelity) {
     EXPECT_TRUE(f.met()) << f.label << ' ' << f.f1() << ' ' << f.f2();
   }
+  // Cores of 3 and 6 voxels radius fall short of .95 on a lattice that stops at the voxel, and that is said.
+  for (const double core_mm : {3.0, 6.0}) {
+    MeshImageReport small;
+    mesh_of(testing::ball_image(48, 1, 18, core_mm), options, small);
+    const auto unmet = std::count_if(small.refine.fidelity.begin(), small.refine.fidelity.end(),
+                                     [](const MaterialFidelity& f) { return !f.met(); });
+    EXPECT_GT(unmet, 0);
+    EXPECT_EQ(static_cast<std::size_t>(unmet), small.refine.warnings.size());
+    // A finer lattice meets it.
+    MeshImageOptions finer = options;
+    finer.refine.finest_spacing_mm = 0.25;
+    MeshImageReport fine;
+    mesh_of(testing::ball_image(48, 1, 18, core_mm), finer, fine);
+    EXPECT_TRUE(fine.refine.warnings.empty());
+  }
   options.refine.fidelity = 1;  // cannot be met by a lattice that stops at the voxel
   MeshImageReport strict;
   mesh_of(image, options, strict);
