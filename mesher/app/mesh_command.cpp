@@ -1,12 +1,12 @@
 #include "mesher/app/mesh_command.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <functional>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "mesher/app/label_values.hpp"
+#include "mesher/app/material_options.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_overrides.hpp"
 #include "mesher/core/atomic_file.hpp"
@@ -24,35 +24,12 @@ struct MeshCommand {
   std::string out;
   RunDescription run{"quality", 0, {}, {}};
   std::vector<std::string> material_fidelity;
+  MaterialOptions materials;
   Overrides overrides;
   std::string report_file;
   std::string dump_stages;
   bool quiet = false;
 };
-
-template <typename Number>
-bool parse_number(std::string_view text, Number& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-/// "LABEL=F" -> the map of material fidelities.
-void parse_material_fidelity(const MeshCommand& command, const LabelImage& image,
-                             std::map<Label, double>& fidelity) {
-  for (const std::string& text : command.material_fidelity) {
-    const auto equals = text.find('=');
-    Label label = 0;
-    double f = 0;
-    if (equals == std::string::npos || !parse_number(std::string_view(text).substr(0, equals), label) ||
-        !parse_number(std::string_view(text).substr(equals + 1), f) || !(f > 0 && f <= 1)) {
-      throw InputError("--material-fidelity " + text + ": give LABEL=F with F in (0, 1], for example 2=0.9");
-    }
-    if (std::find(image.labels.begin() + 1, image.labels.end(), label) == image.labels.end()) {
-      throw InputError("--material-fidelity " + text + ": the image has no label " + std::to_string(label));
-    }
-    fidelity[label] = f;
-  }
-}
 
 void write_failure(const MeshCommand& command, const char* status, const std::string& reason) {
   if (!command.report_file.empty()) {
@@ -78,10 +55,13 @@ void run(MeshCommand& command) {
     apply(options);
   }
   options.dump_stages = command.dump_stages;
-  parse_material_fidelity(command, image, options.refine.material_fidelity);
+  options.refine.material_fidelity =
+      parse_label_values("--material-fidelity", command.material_fidelity, image,
+                         {[](double f) { return f > 0 && f <= 1; }, "F with F in (0, 1], for example 2=0.9"});
+  apply_material_options(command.materials, image, options.deform.elasticity);
   MeshImageReport report;
   const Mesh mesh = mesh_image(std::move(image), options, progress, report);
-  if (mesh.tets.size() == 0) {
+  if (mesh.cell_count() == 0) {
     throw JobError("the mesh of '" + command.image +
                    "' is empty: no label is larger than the lattice; give a smaller --lattice-spacing");
   }
@@ -94,8 +74,7 @@ void run(MeshCommand& command) {
   for (const std::string& warning : report.warnings) {
     progress.line("warning: " + warning, true);
   }
-  progress.line("wrote " + command.out + ": " + std::to_string(mesh.points.size()) + " vertices, " +
-                std::to_string(mesh.tets.size()) + " tets");
+  progress.line("wrote " + command.out + ": " + counts_text(mesh));
 }
 
 void run_reporting(MeshCommand& command) {
@@ -124,7 +103,9 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   add_lattice_options(*mesh, command->overrides);
   mesh->add_option("--material-fidelity", command->material_fidelity,
                    "LABEL=F: the fidelity of one label (repeatable)");
+  add_mixed_options(*mesh, command->overrides);
   add_deformation_options(*mesh, command->overrides);
+  add_material_options(*mesh, command->materials);
   mesh->add_option("--report", command->report_file,
                    "JSON file with options, counts, fidelity, seconds and warnings");
   mesh->add_option("--dump-stages", command->dump_stages, "folder for the mesh after each stage");

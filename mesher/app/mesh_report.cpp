@@ -12,6 +12,10 @@ nlohmann::json options_json(const RunDescription& run, const MeshImageReport& re
   for (const auto& [label, f] : o.refine.material_fidelity) {
     material[std::to_string(label)] = f;
   }
+  nlohmann::json materials = nlohmann::json::object();
+  for (const auto& [label, e] : o.deform.elasticity.by_label) {
+    materials[std::to_string(label)] = {{"young_pa", e.young_pa}, {"poisson", e.poisson}};
+  }
   return {{"preset", run.preset},
           {"relabel_noise", name_of(kNoisyVoxelNames, o.clean.relabel_noise)},
           {"region_tolerance", o.clean.region_tolerance},
@@ -24,11 +28,19 @@ nlohmann::json options_json(const RunDescription& run, const MeshImageReport& re
           {"finest_spacing_mm", report.finest_spacing_mm},
           {"iterations", o.deform.iterations},
           {"connectivity", name_of(kConnectivityNames, o.deform.connectivity)},
-          {"target_position", name_of(kTargetPositionNames, o.deform.target_position)},
+          {"target_position", name_of(kTargetPositionNames, o.deform.displacement.target_position)},
+          {"displacement", name_of(kDisplacementNames, o.deform.displacement.along_normal)},
+          {"reject_outliers", o.deform.displacement.reject_outliers},
+          {"reach", o.deform.displacement.reach},
+          {"pair_distance", o.deform.displacement.pair_distance},
+          {"attempts", o.deform.attempts},
           {"on_failure", name_of(kOnFailureNames, o.deform.on_failure)},
-          {"young_pa", o.deform.elasticity.young_pa},
-          {"poisson", o.deform.elasticity.poisson},
-          {"min_dihedral_deg", o.deform.min_dihedral_deg},
+          {"young_pa", o.deform.elasticity.all.young_pa},
+          {"poisson", o.deform.elasticity.all.poisson},
+          {"material_elasticity", materials},
+          {"min_scaled_jacobian", o.deform.quality.min_scaled_jacobian},
+          {"mixed", o.mixed},
+          {"min_dihedral_deg", o.deform.quality.min_dihedral_deg},
           {"seed", o.clean.seed},
           {"threads", run.threads}};
 }
@@ -66,24 +78,58 @@ nlohmann::json topology_json(const TopologyReport& topology) {
           {"labels", labels}};
 }
 
-nlohmann::json deformation_json(const MeshImageReport& report) {
+}  // namespace
+
+nlohmann::json mix_json(const MixReport& mix) {
+  return {{"centres", mix.centres},
+          {"hexes", mix.hexes},
+          {"pyramids", mix.pyramids},
+          {"tets_merged", mix.tets_merged},
+          {"vertices_before", mix.vertices_before},
+          {"vertices_after", mix.vertices_after}};
+}
+
+std::string counts_text(const Mesh& mesh) {
+  std::string text =
+      std::to_string(mesh.points.size()) + " vertices, " + std::to_string(mesh.tets.size()) + " tets";
+  const auto add = [&text](std::size_t count, const char* kind) {
+    text += count > 0 ? ", " + std::to_string(count) + " " + kind : "";
+  };
+  add(mesh.pyramids.size(), "pyramids");
+  add(mesh.wedges.size(), "wedges");
+  add(mesh.hexes.size(), "hexes");
+  return text;
+}
+
+nlohmann::json counts_json(const Mesh& mesh) {
+  return {{"vertices", mesh.points.size()},
+          {"tets", mesh.tets.size()},
+          {"pyramids", mesh.pyramids.size()},
+          {"wedges", mesh.wedges.size()},
+          {"hexes", mesh.hexes.size()}};
+}
+
+nlohmann::json deformation_json(const DeformReport& deform) {
   nlohmann::json iterations = nlohmann::json::array();
-  for (const DeformIteration& i : report.deform.iterations) {
+  for (const DeformIteration& i : deform.iterations) {
     iterations.push_back({{"matched_sources", i.matched_sources},
                           {"mean_displacement_mm", i.mean_displacement_mm},
                           {"max_displacement_mm", i.max_displacement_mm},
                           {"attempts", i.attempts},
-                          {"recovered_vertices", i.recovered_vertices},
+                          {"held_vertices", i.held_vertices},
                           {"solver_iterations", i.solver.iterations},
                           {"relative_residual", i.solver.relative_residual}});
   }
-  return {{"sources", report.deform.sources},
-          {"targets", report.deform.targets},
-          {"stopped_early", report.deform.stopped_early},
+  nlohmann::json parts = nlohmann::json::object();
+  for (const auto& [name, seconds] : deform.part_seconds) {
+    parts[name] = seconds;
+  }
+  return {{"seconds", parts},
+          {"sources", deform.sources},
+          {"targets", deform.targets},
+          {"stopped_early", deform.stopped_early},
           {"iterations", iterations}};
 }
-
-}  // namespace
 
 nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame) {
   const double voxel_mm3 = frame.spacing_mm.x * frame.spacing_mm.y * frame.spacing_mm.z;
@@ -117,12 +163,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"reason", ""},
           {"version", CBC3D_VERSION},
           {"options", options_json(run, report)},
-          {"counts",
-           {{"vertices", mesh.points.size()},
-            {"tets", mesh.tets.size()},
-            {"pyramids", mesh.pyramids.size()},
-            {"wedges", mesh.wedges.size()},
-            {"hexes", mesh.hexes.size()}}},
+          {"counts", counts_json(mesh)},
           {"cleaning", cleaning_json(report.clean, run.frame)},
           {"refinement",
            {{"rounds", report.refine.rounds},
@@ -130,7 +171,8 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
             {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
           {"topology", run.options.topology.enabled ? topology_json(report.topology) : nlohmann::json()},
           {"materials", fidelity_json(report)},
-          {"deformation", deformation_json(report)},
+          {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
+          {"deformation", deformation_json(report.deform)},
           {"warnings", report.warnings},
           {"seconds", {{"total", report.seconds}, {"cpu", process_cpu_seconds()}, {"stages", stages}}},
           {"peak_rss_bytes", process_peak_rss_bytes()}};

@@ -18,6 +18,18 @@ struct RunDescription {
 /// What a cleaning changed: counts, and per label the voxels before and after and the change of volume.
 nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame);
 
+/// Points, parts' seconds and per-iteration figures of a deformation.
+nlohmann::json deformation_json(const DeformReport& deform);
+
+/// Hexes and pyramids made, vertices before and after.
+nlohmann::json mix_json(const MixReport& mix);
+
+/// Vertices and cells by kind.
+nlohmann::json counts_json(const Mesh& mesh);
+
+/// "812 vertices, 3900 tets, 12 hexes": kinds that there are none of are left out, tets excepted.
+std::string counts_text(const Mesh& mesh);
+
 /// Options used, counts, per-material F1 and F2, per-iteration deformation figures, seconds per stage, peak
 /// memory and warnings (the contract's keys).
 nlohmann::json report_json(const RunDescription& run, const MeshImageReport& report, const Mesh& mesh);

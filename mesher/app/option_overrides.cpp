@@ -15,6 +15,7 @@ const EnumNames<NoisyVoxels> kNoisyVoxelNames = {{"none", NoisyVoxels::none},
                                                  {"holes", NoisyVoxels::holes},
                                                  {"specks", NoisyVoxels::specks},
                                                  {"both", NoisyVoxels::both}};
+const EnumNames<bool> kDisplacementNames = {{"normal", true}, {"full", false}};
 const EnumNames<OnFailure> kOnFailureNames = {{"stop", OnFailure::stop}, {"recover", OnFailure::recover}};
 
 namespace {
@@ -107,21 +108,60 @@ void add_deformation_options(CLI::App& app, Overrides& overrides) {
              "targets at voxel-centre (half a voxel inside) or voxel-faces [quality: voxel-faces, paper: "
              "voxel-centre]",
              kTargetPositionNames,
-             [](MeshImageOptions& o) -> TargetPosition& { return o.deform.target_position; });
-  add_choice(app, overrides, "--on-failure",
-             "where elements stay below the minimum quality: stop all, or recover there and go on [quality: "
-             "recover, paper: stop]",
-             kOnFailureNames, [](MeshImageOptions& o) -> OnFailure& { return o.deform.on_failure; });
+             [](MeshImageOptions& o) -> TargetPosition& { return o.deform.displacement.target_position; });
+  add_choice(app, overrides, "--displacement",
+             "of a source: only along the surface's normal, or the full mean of its targets [normal]",
+             kDisplacementNames,
+             [](MeshImageOptions& o) -> bool& { return o.deform.displacement.along_normal; });
+  app.add_flag_callback(
+      "--keep-outliers",
+      [&overrides] {
+        overrides.emplace_back([](MeshImageOptions& o) { o.deform.displacement.reject_outliers = false; });
+      },
+      "let targets pull whose boundary looks the other way, as the far side of a thin wall");
+  add_override<double>(
+      app, overrides, "--reach",
+      "a source without target in its region (the mean length of its surface edges) takes the "
+      "nearest within so many of them; 1: it follows the elastic field [3]",
+      [](MeshImageOptions& o) -> double& { return o.deform.displacement.reach; })
+      ->check(CLI::Range(1.0, 100.0));
+  add_override<double>(
+      app, overrides, "--pair-distance",
+      "a source or a target farther from its nearest partner is pulled so near, voxel diagonals; 0: off "
+      "[quality: 0.6, paper: 0.5]",
+      [](MeshImageOptions& o) -> double& { return o.deform.displacement.pair_distance; })
+      ->check(CLI::NonNegativeNumber);
+  add_override<int>(app, overrides, "--attempts",
+                    "with --on-failure stop: solves with scaled displacements before it stops [3]",
+                    [](MeshImageOptions& o) -> int& { return o.deform.attempts; })
+      ->check(CLI::Range(0, 100));
+  add_choice(
+      app, overrides, "--on-failure",
+      "where elements stay below the minimum quality: hold back only their vertices and go on (recover), or "
+      "stop all, as the paper does [recover]",
+      kOnFailureNames, [](MeshImageOptions& o) -> OnFailure& { return o.deform.on_failure; });
   add_override<double>(app, overrides, "--young-pa", "Young's modulus, Pa [2100]",
-                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.young_pa; })
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.all.young_pa; })
       ->check(CLI::PositiveNumber);
   add_override<double>(app, overrides, "--poisson", "Poisson's ratio, in [0, 0.5) [0.45]",
-                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.poisson; })
+                       [](MeshImageOptions& o) -> double& { return o.deform.elasticity.all.poisson; })
       ->check(CLI::Range(0.0, 0.499));
   add_override<double>(app, overrides, "--min-dihedral",
                        "smallest dihedral angle that the deformation keeps, degrees [5]",
-                       [](MeshImageOptions& o) -> double& { return o.deform.min_dihedral_deg; })
+                       [](MeshImageOptions& o) -> double& { return o.deform.quality.min_dihedral_deg; })
       ->check(CLI::Range(0.0, 60.0));
+  add_override<double>(
+      app, overrides, "--min-scaled-jacobian",
+      "smallest scaled Jacobian of hexes and pyramids that the deformation keeps (a pyramid of the "
+      "lattice has 1) [0.2]",
+      [](MeshImageOptions& o) -> double& { return o.deform.quality.min_scaled_jacobian; })
+      ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_mixed_options(CLI::App& app, Overrides& overrides) {
+  app.add_flag_callback(
+      "--mixed", [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.mixed = true; }); },
+      "hexes in uniform regions, pyramids between them and the tets");
 }
 
 }  // namespace cbc3d

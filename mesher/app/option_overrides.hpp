@@ -19,8 +19,10 @@ void add_cleaning_options(CLI::App& app, Overrides& overrides);
 /// Lattice and refinement: --lattice-spacing, --fidelity, --max-distance, --finest-spacing,
 /// --topology-checks.
 void add_lattice_options(CLI::App& app, Overrides& overrides);
-/// Deformation: --iterations, --connectivity, --target-position, --on-failure, --young-pa, --poisson,
-/// --min-dihedral.
+/// Mixed elements: --mixed.
+void add_mixed_options(CLI::App& app, Overrides& overrides);
+/// Deformation: --iterations, --connectivity, --target-position, --displacement, --keep-outliers, --reach,
+/// --attempts, --on-failure, --young-pa, --poisson, --min-dihedral, --min-scaled-jacobian.
 void add_deformation_options(CLI::App& app, Overrides& overrides);
 
 /// Values of enumerations by the names that the command line and the report use.
@@ -28,6 +30,7 @@ template <typename Enum>
 using EnumNames = std::vector<std::pair<const char*, Enum>>;
 extern const EnumNames<Connectivity> kConnectivityNames;
 extern const EnumNames<TargetPosition> kTargetPositionNames;
+extern const EnumNames<bool> kDisplacementNames;  ///< DisplacementOptions::along_normal
 extern const EnumNames<NoisyVoxels> kNoisyVoxelNames;
 extern const EnumNames<OnFailure> kOnFailureNames;
 

@@ -11,6 +11,7 @@
 namespace cbc3d {
 
 using VertexId = std::uint32_t;
+inline constexpr VertexId kNoVertex = 0xFFFFFFFFU;
 
 /// Cells of one kind: node lists and, in parallel, their labels.
 template <int Nodes>

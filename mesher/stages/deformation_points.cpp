@@ -5,33 +5,79 @@
 
 namespace cbc3d {
 
-std::uint32_t LabelSets::number_of(const std::vector<MaterialId>& set) {
-  return numbers_.try_emplace(set, static_cast<std::uint32_t>(numbers_.size())).first->second;
+void LabelSet::insert(MaterialId material) {
+  const auto end = materials_.begin() + count_;
+  const auto place = std::lower_bound(materials_.begin(), end, material);
+  if (place == materials_.end() || (place != end && *place == material)) {
+    return;
+  }
+  const bool full = count_ == kMost;
+  std::copy_backward(place, full ? end - 1 : end, full ? end : end + 1);
+  *place = material;
+  count_ += full ? 0 : 1;
+}
+
+bool LabelSet::is_within(const LabelSet& other) const {
+  return std::includes(other.materials_.begin(), other.materials_.begin() + other.count_, materials_.begin(),
+                       materials_.begin() + count_);
+}
+
+std::size_t LabelSets::Hash::operator()(const LabelSet& set) const {
+  std::uint64_t hash = set.size();
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    hash = (hash ^ set[i]) * 0x9E3779B97F4A7C15U;
+  }
+  return hash ^ (hash >> 32U);
+}
+
+std::uint32_t LabelSets::number_of(const LabelSet& set) {
+  const auto [place, is_new] = numbers_.try_emplace(set, static_cast<std::uint32_t>(sets_.size()));
+  if (is_new) {
+    sets_.push_back(set);
+  }
+  return place->second;
 }
 
 namespace {
 
-void sort_unique(std::vector<MaterialId>& set) {
-  std::sort(set.begin(), set.end());
-  set.erase(std::unique(set.begin(), set.end()), set.end());
-}
-
-/// Marks the vertices of faces between different materials (1) and of faces without a second tet (2).
-std::vector<std::uint8_t> interface_vertices(const MaterialMesh& mesh) {
-  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
-  std::vector<std::uint8_t> mark(mesh.points.size(), 0);
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    for (std::size_t n = 0; n < 4; ++n) {
-      const TetId across = neighbours[t][n];
-      const bool outside = across == kNoTet;
-      if (outside || mesh.materials[across] != mesh.materials[t]) {
-        for (const std::uint8_t corner : kTetFace[n]) {
-          mark[mesh.tets[t][corner]] |= outside ? 3U : 1U;
-        }
+/// Sources numbered by vertex, kNoVertex for the other vertices.
+std::vector<VertexId> number_sources(const std::vector<InterfaceFacet>& interface, std::size_t vertex_count,
+                                     std::vector<SourcePoint>& sources) {
+  std::vector<VertexId> number(vertex_count, kNoVertex);
+  for (const InterfaceFacet& facet : interface) {
+    for (const VertexId v : facet.nodes) {
+      if (v != kNoVertex) {
+        number[v] = 0;
       }
     }
   }
-  return mark;
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (number[v] != kNoVertex) {
+      number[v] = static_cast<VertexId>(sources.size());
+      sources.push_back({static_cast<VertexId>(v), 0, false});
+    }
+  }
+  return number;
+}
+
+void gather_facets(const std::vector<VertexId>& number, SourcePoints& points) {
+  points.first.assign(points.sources.size() + 1, 0);
+  const auto each = [&](const auto& visit) {
+    for (std::size_t f = 0; f < points.interface.size(); ++f) {
+      for (const VertexId v : points.interface[f].nodes) {
+        if (v != kNoVertex) {
+          visit(number[v], static_cast<std::uint32_t>(f));
+        }
+      }
+    }
+  };
+  each([&](VertexId s, std::uint32_t) { ++points.first[s + 1]; });
+  for (std::size_t s = 0; s < points.sources.size(); ++s) {
+    points.first[s + 1] += points.first[s];
+  }
+  points.facets.resize(points.first.back());
+  std::vector<std::uint32_t> next(points.first.begin(), points.first.end() - 1);
+  each([&](VertexId s, std::uint32_t f) { points.facets[next[s]++] = f; });
 }
 
 bool is_target_voxel(const LabelImage& image, int i, int j, int k) {
@@ -119,64 +165,35 @@ std::uint8_t open_faces(const LabelImage& image, int i, int j, int k) {
   return static_cast<std::uint8_t>(faces);
 }
 
-std::vector<MaterialId> materials_around(const LabelImage& image, int i, int j, int k) {
-  std::vector<MaterialId> set;
+LabelSet materials_around(const LabelImage& image, int i, int j, int k) {
+  LabelSet set;
   for (int dk = -1; dk <= 1; ++dk) {
     for (int dj = -1; dj <= 1; ++dj) {
       for (int di = -1; di <= 1; ++di) {
-        const MaterialId m = image.at_or_background(i + di, j + dj, k + dk);
-        if (std::find(set.begin(), set.end(), m) == set.end()) {
-          set.push_back(m);
-        }
+        set.insert(image.at_or_background(i + di, j + dj, k + dk));
       }
     }
   }
-  std::sort(set.begin(), set.end());
   return set;
 }
 
 }  // namespace
 
-std::vector<InterfaceFace> interface_faces(const MaterialMesh& mesh) {
-  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
-  std::vector<InterfaceFace> faces;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    for (std::size_t n = 0; n < 4; ++n) {
-      const TetId neighbour = neighbours[t][n];
-      const MaterialId across = neighbour == kNoTet ? kBackground : mesh.materials[neighbour];
-      if (across == mesh.materials[t]) {
-        continue;
-      }
-      const auto& corner = kTetFace[n];
-      InterfaceFace face = {mesh.tets[t][corner[0]], mesh.tets[t][corner[1]], mesh.tets[t][corner[2]]};
-      if (mesh.materials[t] > across) {
-        std::swap(face[1], face[2]);
-      }
-      faces.push_back(face);
+SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& around, LabelSets& sets) {
+  SourcePoints points;
+  points.interface = interface_facets(mesh, around);
+  gather_facets(number_sources(points.interface, mesh.points.size(), points.sources), points);
+  for (std::size_t s = 0; s < points.sources.size(); ++s) {
+    // Every material of a star has a facet at its vertex, unless it is the only one there.
+    LabelSet set;
+    for (std::uint32_t f = points.first[s]; f < points.first[s + 1]; ++f) {
+      set.insert(points.interface[points.facets[f]].lower);
+      set.insert(points.interface[points.facets[f]].higher);
     }
+    points.sources[s].set = sets.number_of(set);
+    points.sources[s].two_sided = set.size() == 2;
   }
-  return faces;
-}
-
-std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSets& sets) {
-  const std::vector<std::uint8_t> mark = interface_vertices(mesh);
-  const VertexTets around = tets_of_vertices(mesh.tets, mesh.points.size());
-  std::vector<SourcePoint> sources;
-  std::vector<MaterialId> set;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (mark[v] != 0) {
-      set.clear();
-      for (std::uint32_t a = around.first[v]; a < around.first[v + 1]; ++a) {
-        set.push_back(mesh.materials[around.tets[a]]);
-      }
-      if ((mark[v] & 2U) != 0) {
-        set.push_back(kBackground);
-      }
-      sort_unique(set);
-      sources.push_back({static_cast<VertexId>(v), sets.number_of(set), set.size() == 2});
-    }
-  }
-  return sources;
+  return points;
 }
 
 TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, LabelSets& sets) {
@@ -185,14 +202,23 @@ TargetPoints extract_target_points(const LabelImage& image, Connectivity connect
   TargetPoints points;
   points.first.assign(rows.size() + 1, 0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    points.first[r + 1] = points.first[r] + rows[r].size();
+  }
+  points.targets.resize(points.first.back());
+  std::vector<LabelSet> found(points.targets.size());
+#pragma omp parallel for schedule(dynamic, 64)
+  for (std::size_t r = 0; r < rows.size(); ++r) {
     const int j = static_cast<int>(r % static_cast<std::size_t>(image.frame.size[1]));
     const int k = static_cast<int>(r / static_cast<std::size_t>(image.frame.size[1]));
-    for (const int i : rows[r]) {
-      const std::vector<MaterialId> set = materials_around(image, i, j, k);
-      points.targets.push_back(
-          {i, sets.number_of(set), open_faces(image, i, j, k), image.at(i, j, k) == set.front()});
+    for (std::size_t n = 0; n < rows[r].size(); ++n) {
+      const int i = rows[r][n];
+      LabelSet& set = found[points.first[r] + n];
+      set = materials_around(image, i, j, k);
+      points.targets[points.first[r] + n] = {i, 0, open_faces(image, i, j, k), image.at(i, j, k) == set[0]};
     }
-    points.first[r + 1] = points.targets.size();
+  }
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    points.targets[t].set = sets.number_of(found[t]);
   }
   return points;
 }

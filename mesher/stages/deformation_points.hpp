@@ -2,38 +2,52 @@
 //
 // Notation: s  source: a vertex on the mesh surface or on an interface;
 //           t  target: a boundary voxel of the image;
-//           label set: the materials that meet at a point, background included; only points with equal sets
-//           are matched.
+//           label set: the materials that meet at a point, background included; points with equal sets
+//           correspond.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <map>
+#include <unordered_map>
 #include <vector>
 
-#include "mesher/stages/material_mesh.hpp"
+#include "mesher/stages/interface_facets.hpp"
 
 namespace cbc3d {
 
 /// Which neighbours of an accepted target voxel are barred from becoming targets.
 enum class Connectivity { vertex, edge, face, no };
 
-/// Where a target lies.
-enum class TargetPosition {
-  voxel_centre,  ///< the paper's: the centre of the boundary voxel, half a voxel inside the boundary
-  voxel_faces,   ///< the centres of the voxel's faces towards other materials, as far as they look the way of
-                ///< the source's surface: on the boundary, and the far side of a thin wall or wire pulls
-                ///< nothing
+/// The distinct materials that meet at a point, ascending. Of more than kMost the lowest are kept; a set is
+/// full of those from then on, so that such points still correspond to each other.
+class LabelSet {
+ public:
+  static constexpr std::size_t kMost = 8;
+
+  void insert(MaterialId material);
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] MaterialId operator[](std::size_t i) const { return materials_[i]; }
+  /// True when every material of this set is in the other.
+  [[nodiscard]] bool is_within(const LabelSet& other) const;
+  bool operator==(const LabelSet&) const = default;
+
+ private:
+  std::array<MaterialId, kMost> materials_{};
+  std::uint8_t count_ = 0;
 };
 
 /// Numbers label sets, so that equality is one comparison.
 class LabelSets {
  public:
-  /// The number of a set given as ascending distinct materials.
-  std::uint32_t number_of(const std::vector<MaterialId>& set);
+  std::uint32_t number_of(const LabelSet& set);
+  [[nodiscard]] const LabelSet& operator[](std::uint32_t number) const { return sets_[number]; }
 
  private:
-  std::map<std::vector<MaterialId>, std::uint32_t> numbers_;
+  struct Hash {
+    std::size_t operator()(const LabelSet& set) const;
+  };
+  std::unordered_map<LabelSet, std::uint32_t, Hash> numbers_;
+  std::vector<LabelSet> sets_;
 };
 
 struct SourcePoint {
@@ -42,15 +56,15 @@ struct SourcePoint {
   bool two_sided;  ///< exactly two materials meet, so that the surface has a normal
 };
 
-/// A mesh face between two materials, nodes ordered so that its right-hand normal points from the lower
-/// material number to the higher.
-using InterfaceFace = std::array<VertexId, 3>;
+/// The sources of a mesh, ascending by vertex, with the interface facets at each: facets[first[s]] ...
+struct SourcePoints {
+  std::vector<SourcePoint> sources;
+  std::vector<InterfaceFacet> interface;
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> facets;
+};
 
-/// All interface and surface faces of a mesh; those between two labelled materials occur twice.
-std::vector<InterfaceFace> interface_faces(const MaterialMesh& mesh);
-
-/// The source points of a mesh, ascending by vertex.
-std::vector<SourcePoint> extract_source_points(const MaterialMesh& mesh, LabelSets& sets);
+SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& around, LabelSets& sets);
 
 struct TargetPoint {
   std::int32_t i;  ///< voxel index along x; (j, k) is told by the row

@@ -2,31 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace cbc3d {
 namespace {
 
-/// Gradients of the four linear shape functions and the volume of a tet.
-struct TetGradients {
-  std::array<Vec3, 4> gradient;
-  double volume;
-};
-
-TetGradients gradients_of(const MaterialMesh& mesh, const std::array<VertexId, 4>& tet) {
-  TetGradients g;
-  const Vec3& p0 = mesh.points[tet[0]];
-  const Vec3 a = mesh.points[tet[1]] - p0;
-  const Vec3 b = mesh.points[tet[2]] - p0;
-  const Vec3 c = mesh.points[tet[3]] - p0;
-  const double det = a.cross(b).dot(c);
-  g.volume = det / 6;
-  g.gradient[1] = b.cross(c) / det;
-  g.gradient[2] = c.cross(a) / det;
-  g.gradient[3] = a.cross(b) / det;
-  g.gradient[0] = -(g.gradient[1] + g.gradient[2] + g.gradient[3]);
-  return g;
-}
-
+/// The inverse of a diagonal block, the identity for a vertex without stiffness.
 std::array<double, 9> inverse_of(const std::array<float, 9>& m) {
   const Vec3 r0{m[0], m[1], m[2]};
   const Vec3 r1{m[3], m[4], m[5]};
@@ -34,7 +15,11 @@ std::array<double, 9> inverse_of(const std::array<float, 9>& m) {
   const Vec3 c0 = r1.cross(r2);
   const Vec3 c1 = r2.cross(r0);
   const Vec3 c2 = r0.cross(r1);
-  const double s = 1 / r0.dot(c0);
+  const double det = r0.dot(c0);
+  if (!(det > 0)) {
+    return {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  }
+  const double s = 1 / det;
   return {c0.x * s, c1.x * s, c2.x * s, c0.y * s, c1.y * s, c2.y * s, c0.z * s, c1.z * s, c2.z * s};
 }
 
@@ -70,69 +55,104 @@ double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 }  // namespace
 
-ElasticSystem::ElasticSystem(const MaterialMesh& mesh, const ElasticityOptions& options)
-    : options_(options), around_(tets_of_vertices(mesh.tets, mesh.points.size())) {
+ElasticSystem::ElasticSystem(const MaterialMesh& mesh, const VertexCells& around,
+                             const std::vector<ElasticMaterial>& materials, const ElasticityOptions& options)
+    : options_(options), around_(around) {
+  std::transform(materials.begin(), materials.end(), std::back_inserter(lame_), lame_constants);
   const std::size_t count = mesh.points.size();
-  first_.assign(count + 1, 0);
-  std::vector<VertexId> row;
-  for (std::size_t v = 0; v < count; ++v) {
+  const auto row_of = [&](std::size_t v, std::vector<VertexId>& row) {
     row.clear();
-    for (std::uint32_t a = around_.first[v]; a < around_.first[v + 1]; ++a) {
-      const auto& tet = mesh.tets[around_.tets[a]];
-      row.insert(row.end(), tet.begin(), tet.end());
+    for (const CellId c : around.of(static_cast<VertexId>(v))) {
+      const auto nodes = mesh.nodes_of(c);
+      row.insert(row.end(), nodes.begin(), nodes.end());
     }
     std::sort(row.begin(), row.end());
-    column_.insert(column_.end(), row.begin(), std::unique(row.begin(), row.end()));
-    first_[v + 1] = static_cast<std::uint32_t>(column_.size());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+  };
+  first_.assign(count + 1, 0);
+#pragma omp parallel
+  {
+    std::vector<VertexId> row;
+#pragma omp for schedule(static, 512)
+    for (std::size_t v = 0; v < count; ++v) {
+      row_of(v, row);
+      first_[v + 1] = row.size();
+    }
+  }
+  for (std::size_t v = 0; v < count; ++v) {
+    first_[v + 1] += first_[v];
+  }
+  column_.resize(first_[count]);
+#pragma omp parallel
+  {
+    std::vector<VertexId> row;
+#pragma omp for schedule(static, 512)
+    for (std::size_t v = 0; v < count; ++v) {
+      row_of(v, row);
+      std::copy(row.begin(), row.end(), column_.begin() + static_cast<std::ptrdiff_t>(first_[v]));
+    }
   }
   blocks_.resize(column_.size());
   inverse_diagonal_.resize(count);
 }
 
 void ElasticSystem::assemble(const MaterialMesh& mesh, const std::vector<std::uint8_t>& is_source) {
-#pragma omp parallel for schedule(static, 512)
-  for (std::size_t v = 0; v < is_source.size(); ++v) {
-    assemble_row(mesh, v, is_source[v] != 0);
+#pragma omp parallel
+  {
+    Scratch scratch;
+    scratch.place.resize(is_source.size());
+#pragma omp for schedule(static, 512)
+    for (std::size_t v = 0; v < is_source.size(); ++v) {
+      assemble_upper_row(mesh, static_cast<VertexId>(v), is_source[v] != 0, scratch);
+    }
+#pragma omp for schedule(static, 512)
+    for (std::size_t v = 0; v < is_source.size(); ++v) {
+      mirror_lower_row(static_cast<VertexId>(v));
+    }
   }
 }
 
-/// Row v gathers from its tets, so rows are independent. Block of nodes a, b of one tet, with gradients ga,
-/// gb: V (lambda ga gb^T + mu gb ga^T + mu (ga . gb) I).
-void ElasticSystem::assemble_row(const MaterialMesh& mesh, std::size_t v, bool source) {
-  const double young = options_.young_pa * 1e-6;  // N/mm^2, to go with mm
-  const double mu = young / (2 * (1 + options_.poisson));
-  const double lambda = young * options_.poisson / ((1 + options_.poisson) * (1 - 2 * options_.poisson));
-  const std::uint32_t begin = first_[v];
-  const std::uint32_t end = first_[v + 1];
-  thread_local std::vector<std::array<double, 9>> sums;
-  sums.assign(end - begin, {});
-  for (std::uint32_t i = around_.first[v]; i < around_.first[v + 1]; ++i) {
-    const auto& tet = mesh.tets[around_.tets[i]];
-    const TetGradients g = gradients_of(mesh, tet);
-    const auto own = static_cast<std::size_t>(std::find(tet.begin(), tet.end(), v) - tet.begin());
-    const Vec3& ga = g.gradient[own];
-    for (std::size_t n = 0; n < 4; ++n) {
-      const Vec3& gb = g.gradient[n];
-      const auto place = static_cast<std::size_t>(
-          std::lower_bound(column_.begin() + begin, column_.begin() + end, tet[n]) - column_.begin() - begin);
-      const double diagonal = mu * ga.dot(gb);
-      std::size_t entry = 0;
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) {
-          sums[place][entry++] +=
-              g.volume * (lambda * ga[r] * gb[c] + mu * gb[r] * ga[c] + (r == c ? diagonal : 0));
-        }
-      }
-    }
+/// Row v from its diagonal on; it gathers from the cells at v, so rows are independent.
+void ElasticSystem::assemble_upper_row(const MaterialMesh& mesh, VertexId v, bool source, Scratch& scratch) {
+  const auto columns = neighbours(v);
+  const auto diagonal =
+      static_cast<std::size_t>(std::lower_bound(columns.begin(), columns.end(), v) - columns.begin());
+  scratch.sums.assign(columns.size() - diagonal, {});
+  for (std::size_t b = diagonal; b < columns.size(); ++b) {
+    scratch.place[columns[b]] = static_cast<std::uint32_t>(b - diagonal);
   }
-  for (std::uint32_t b = begin; b < end; ++b) {
-    for (std::size_t e = 0; e < 9; ++e) {
-      const bool on_diagonal = source && column_[b] == v && e % 4 == 0;
-      blocks_[b][e] = static_cast<float>(sums[b - begin][e] + (on_diagonal ? 1 : 0));
+  for (const CellId c : around_.of(v)) {
+    const auto nodes = mesh.nodes_of(c);
+    std::size_t own = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      scratch.points[n] = mesh.points[nodes[n]];
+      scratch.row[n] = nodes[n] < v ? nullptr : &scratch.sums[scratch.place[nodes[n]]];
+      own = nodes[n] == v ? n : own;
     }
-    if (column_[b] == v) {
-      inverse_diagonal_[v] = inverse_of(blocks_[b]);
-    }
+    add_element_stiffness_row({scratch.points.data(), nodes.size()}, own, lame_[mesh.material_of(c)],
+                              {scratch.row.data(), nodes.size()});
+  }
+  for (std::size_t e = 0; e < 9 && source && !scratch.sums.empty(); e += 4) {
+    scratch.sums[0][e] += 1;
+  }
+  for (std::size_t b = diagonal; b < columns.size(); ++b) {
+    std::copy(scratch.sums[b - diagonal].begin(), scratch.sums[b - diagonal].end(),
+              blocks_[first_[v] + b].begin());
+  }
+  if (diagonal < columns.size()) {
+    inverse_diagonal_[v] = inverse_of(blocks_[first_[v] + diagonal]);
+  }
+}
+
+/// Row v before its diagonal: the transposed blocks of the rows above.
+void ElasticSystem::mirror_lower_row(VertexId v) {
+  const auto columns = neighbours(v);
+  for (std::size_t b = 0; b < columns.size() && columns[b] < v; ++b) {
+    const auto above = neighbours(columns[b]);
+    const auto place =
+        static_cast<std::size_t>(std::lower_bound(above.begin(), above.end(), v) - above.begin());
+    const Block& m = blocks_[first_[columns[b]] + place];
+    blocks_[first_[v] + b] = {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
   }
 }
 
@@ -140,7 +160,7 @@ void ElasticSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) c
 #pragma omp parallel for schedule(static, 512)
   for (std::size_t v = 0; v < y.size(); ++v) {
     Vec3 sum;
-    for (std::uint32_t b = first_[v]; b < first_[v + 1]; ++b) {
+    for (std::uint64_t b = first_[v]; b < first_[v + 1]; ++b) {
       sum += times(blocks_[b], x[column_[b]]);
     }
     y[v] = sum;

@@ -26,8 +26,6 @@ namespace cbc3d {
 /// Integer coordinates of a lattice vertex, in units, each in [0, 2^21).
 using LatticePoint = std::array<std::int32_t, 3>;
 
-inline constexpr VertexId kNoVertex = 0xFFFFFFFFU;
-
 /// Maps lattice units to an image's local mm.
 struct LatticeFrame {
   Vec3 origin_mm;      ///< local position of the lattice point (0,0,0)

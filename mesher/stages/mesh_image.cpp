@@ -52,7 +52,7 @@ class StageLog {
 /// A lattice as a mesh to look at: every tet, labelled 1.
 MaterialMesh as_material_mesh(const Lattice& lattice) {
   const LatticeTets tets = extract_tets(lattice);
-  return {local_points(lattice), tets.nodes, std::vector<MaterialId>(tets.size(), 1)};
+  return {local_points(lattice), tets.nodes, std::vector<MaterialId>(tets.size(), 1), {}, {}};
 }
 
 RefineOptions refine_options(const LabelImage& image, const MeshImageOptions& options) {
@@ -79,8 +79,8 @@ BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOption
 /// No label is dropped silently, and no region of one either.
 void warn_of_losses(const LabelImage& image, const MaterialMesh& mesh, MeshImageReport& report) {
   std::vector<std::uint8_t> there(image.material_count(), 0);
-  for (const MaterialId m : mesh.materials) {
-    there[m] = 1;
+  for (CellId c = 0; c < mesh.cell_count(); ++c) {
+    there[mesh.material_of(c)] = 1;
   }
   struct Loss {
     std::size_t regions = 0, lost_regions = 0, lost_voxels = 0;
@@ -175,11 +175,18 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
   }
 
   MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {
-    return discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
+    MaterialMesh kept = discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
+    order_for_locality(kept);
+    return kept;
   });
   log.dump("2_candidate_mesh", mesh);
   report.warnings.insert(report.warnings.end(), report.refine.warnings.begin(), report.refine.warnings.end());
   warn_of_losses(image, mesh, report);
+
+  if (options.mixed) {
+    report.mix = log.run("mixed_elements", 0.53, [&] { return mix_elements(mesh, options.mix); });
+    log.dump("3_mixed_mesh", mesh);
+  }
 
   if (options.deform.iterations > 0) {
     report.deform = log.run("deformation", 0.55, [&] {
@@ -188,7 +195,7 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
                       0.55 + 0.4 * i / std::max(1, options.deform.iterations));
       });
     });
-    log.dump("3_deformed_mesh", mesh);
+    log.dump("4_deformed_mesh", mesh);
   }
   return to_physical_mesh(mesh, image);
 }

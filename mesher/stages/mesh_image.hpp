@@ -13,6 +13,7 @@
 #include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/clean_image.hpp"
 #include "mesher/stages/deform_mesh.hpp"
+#include "mesher/stages/mix_elements.hpp"
 #include "mesher/stages/refine_lattice.hpp"
 
 namespace cbc3d {
@@ -23,6 +24,8 @@ struct MeshImageOptions {
   CleanOptions clean;
   RefineOptions refine;
   TopologyOptions topology;
+  bool mixed = false;  ///< hexes and pyramids in uniform regions
+  MixOptions mix;
   DeformOptions deform;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
@@ -36,6 +39,7 @@ struct MeshImageReport {
   CleanReport clean;
   RefineResult refine;  ///< without its mesh
   TopologyReport topology;
+  MixReport mix;
   DeformReport deform;
   std::vector<std::string> warnings;
 };

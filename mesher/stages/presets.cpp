@@ -13,12 +13,11 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
   if (name == "quality") {
     options.clean.region_tolerance = 0;
     options.refine.max_distance_mm = 2 * frame.voxel_diagonal_mm();
-    options.deform.target_position = TargetPosition::voxel_faces;
-    options.deform.on_failure = OnFailure::recover;
+    options.deform.displacement.target_position = TargetPosition::voxel_faces;
+    options.deform.displacement.pair_distance = 0.6;
     return options;
   }
   if (name == "paper") {
-    options.deform.on_failure = OnFailure::stop;
     return options;
   }
   throw InputError("--preset " + name + ": unknown; give quality or paper");

@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "mesher/core/error.hpp"
+#include "mesher/stages/cell_quality.hpp"
 #include "mesher/stages/mesh_image.hpp"
 #include "mesher/stages/presets.hpp"
 #include "mesher/stages/select_candidate.hpp"
-#include "mesher/stages/tet_quality.hpp"
 #include "mesher/tests/test_images.hpp"
 
 namespace cbc3d {
