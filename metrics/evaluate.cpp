@@ -145,7 +145,7 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
               Progress& progress) {
   const MeshView view(mesh, image);
   progress.step("element quality", 0);
-  json result{{"counts", counts_of(mesh)}, {"quality", to_json(element_quality(view))}};
+  json result{{"counts", counts_of(mesh)}, {"quality", to_json(element_quality(view), view)}};
   progress.step("topology", 0.1);
   std::vector<Facet> facets = sorted_facets(view);
   const Surface surface = extract_surface(view, facets);
