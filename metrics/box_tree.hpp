@@ -54,8 +54,12 @@ class BoxTree {
     return primitives_.empty();
   }
 
-  /// Squared distance to the nearest primitive (infinity without one), and which one it is. `hint`, an index
-  /// this returned for a nearby point, only makes it faster.
+  [[nodiscard]] const Primitive& primitive(std::size_t index) const {
+    return primitives_[index];
+  }
+
+  /// Squared distance to the nearest primitive (infinity without one), and which one it is: of several the
+  /// one of the lowest index. `hint`, an index this returned for a nearby point, only makes it faster.
   struct Nearest {
     double squared;
     std::size_t index;
@@ -70,7 +74,7 @@ class BoxTree {
     stack[depth++] = {nodes_[0].squared_distance(p), 0, 0, primitives_.size()};
     while (depth > 0) {
       const Pending at = stack[--depth];
-      if (at.squared >= best.squared) {
+      if (at.squared > best.squared) {
         continue;
       }
       if (at.node >= first_leaf_) {
@@ -125,7 +129,7 @@ class BoxTree {
   void search_leaf(const Vec3& p, const Pending& leaf, Nearest& best) const {
     for (std::size_t i = leaf.begin; i < leaf.end; ++i) {
       const double squared = primitives_[i].squared_distance(p);
-      if (squared < best.squared) {
+      if (squared < best.squared || (squared == best.squared && i < best.index)) {
         best = {squared, i};
       }
     }
