@@ -41,8 +41,10 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   progress.step("topology", 0.1);
   std::vector<Facet> facets = sorted_facets(view);
   const Surface surface = extract_surface(view, facets);
-  result["topology"] = to_json(topology(view, facets, surface), view);
+  const Topology connected = topology(view, facets, surface);
   facets = {};
+  progress.step("topology of the image", 0.25);
+  result["topology"] = to_json(connected, view, image_topology(image), image);
   const FidelityOptions how = fidelity_options(options, image.frame);
   result["fidelity"] = to_json(fidelity(view, image, surface, how, progress), how);
   progress.step("evaluated", 1);
