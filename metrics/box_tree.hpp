@@ -45,7 +45,7 @@ class BoxTree {
     }
     nodes_.resize(2 * leaves - 1);
     first_leaf_ = leaves - 1;
-#pragma omp parallel
+#pragma omp parallel if (primitives_.size() > kTaskSize)
 #pragma omp single
     build(0, 0, primitives_.size());
   }
@@ -121,6 +121,7 @@ class BoxTree {
 
  private:
   static constexpr std::size_t kLeafSize = 4;
+  static constexpr std::size_t kTaskSize = 32768;
   struct Pending {
     double squared;
     std::size_t node, begin, end;
@@ -156,7 +157,6 @@ class BoxTree {
     std::nth_element(at(begin), at(middle), at(end), [axis](const Primitive& a, const Primitive& b) {
       return middle_of(a)[axis] < middle_of(b)[axis];
     });
-    constexpr std::size_t kTaskSize = 32768;
 #pragma omp task if (end - begin > kTaskSize)
     build(2 * node + 1, begin, middle);
     build(2 * node + 2, middle, end);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include "metrics/reduce.hpp"
+
 namespace cbc3d::metrics {
 namespace {
 
@@ -114,7 +116,7 @@ template <class Nearest>
 std::vector<Candidate> find_candidates(const SampledSurface& from, const std::vector<Nearest>& nearest,
                                        double tolerance_mm, DistanceBounds& known) {
   std::vector<double> upper(from.pieces.size());
-#pragma omp parallel for
+#pragma omp parallel for if (upper.size() > kWorthThreads)
   for (std::size_t n = 0; n < upper.size(); ++n) {
     upper[n] = std::sqrt(nearest[n].squared) + radius_of(from.pieces[n], from.points[n]);
   }
@@ -142,7 +144,7 @@ std::int64_t refine_batch(const SampledSurface& from, const BoxTree<Primitive>& 
   const DistanceBounds start = known;
   std::int64_t pieces = 0;
   double lower = start.lower_mm, upper = start.upper_mm;
-#pragma omp parallel reduction(+ : pieces) reduction(max : lower, upper)
+#pragma omp parallel reduction(+ : pieces) reduction(max : lower, upper) if (batch.size() > 64)
   {
     Refiner<Primitive> refiner(tree, tolerance_mm, share);
 #pragma omp for schedule(dynamic, 16)

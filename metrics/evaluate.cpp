@@ -4,6 +4,7 @@
 
 #include "metrics/cells.hpp"
 #include "metrics/element_quality.hpp"
+#include "metrics/faults.hpp"
 #include "metrics/fidelity.hpp"
 #include "metrics/surface.hpp"
 #include "metrics/topology.hpp"
@@ -37,16 +38,20 @@ FidelityOptions fidelity_options(const EvaluateOptions& options, const ImageFram
 json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options, Progress& progress) {
   const MeshView view(mesh, image);
   progress.step("element quality", 0);
-  json result{{"counts", counts_of(mesh)}, {"quality", to_json(element_quality(view), view)}};
+  const MeshQuality quality = element_quality(view);
+  json result{{"counts", counts_of(mesh)}, {"quality", to_json(quality, view)}};
   progress.step("topology", 0.1);
   std::vector<Facet> facets = sorted_facets(view);
   const Surface surface = extract_surface(view, facets);
   const Topology connected = topology(view, facets, surface);
   facets = {};
   progress.step("topology of the image", 0.25);
-  result["topology"] = to_json(connected, view, image_topology(image), image);
+  const ImageTopology in_image = image_topology(image);
+  result["topology"] = to_json(connected, view, in_image, image);
   const FidelityOptions how = fidelity_options(options, image.frame);
-  result["fidelity"] = to_json(fidelity(view, image, surface, how, progress), how);
+  const Fidelity near = fidelity(view, image, surface, how, progress);
+  result["fidelity"] = to_json(near, how);
+  result["faults"] = describe_faults(view, quality, connected, in_image, image, near.labels);
   progress.step("evaluated", 1);
   return result;
 }

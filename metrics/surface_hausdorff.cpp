@@ -36,7 +36,7 @@ using NearestList = std::vector<typename BoxTree<Primitive>::Nearest>;
 template <class Primitive>
 NearestList<Primitive> find_nearest(const std::vector<Vec3>& points, const BoxTree<Primitive>& tree) {
   NearestList<Primitive> result(points.size());
-#pragma omp parallel
+#pragma omp parallel if (points.size() > kWorthThreads)
   {
     std::size_t hint = 0;  // neighbouring samples have neighbouring nearest primitives
 #pragma omp for schedule(static)
@@ -88,7 +88,7 @@ DirectedDistance directed_distance(const SampledSurface& from, const BoxTree<Pri
                                    const std::optional<CertifyOptions>& certify) {
   const NearestList<Primitive> nearest = find_nearest(from.points, tree);
   std::vector<WeightedDistance> samples(nearest.size());
-#pragma omp parallel for
+#pragma omp parallel for if (samples.size() > kWorthThreads)
   for (std::size_t n = 0; n < samples.size(); ++n) {
     samples[n] = {std::sqrt(nearest[n].squared), from.weights_mm2[n]};
   }
@@ -181,7 +181,7 @@ SearchableSurface<Triangle> searchable_facets(const Surface& surface,
 SearchableSurface<AlignedBox> searchable_voxel_faces(const std::vector<VoxelFace>& faces,
                                                      const ImageFrame& frame) {
   std::vector<AlignedBox> boxes(faces.size());
-#pragma omp parallel for
+#pragma omp parallel for if (faces.size() > kWorthThreads)
   for (std::size_t f = 0; f < faces.size(); ++f) {
     boxes[f] = {box_of(faces[f], frame)};
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "metrics/reduce.hpp"
+
 namespace cbc3d::metrics {
 namespace {
 
@@ -87,7 +89,7 @@ SampledSurface sample_voxel_faces(const std::vector<VoxelFace>& faces, const Ima
   sampled.pieces.resize(faces.size());
   sampled.points.resize(faces.size());
   sampled.weights_mm2.resize(faces.size());
-#pragma omp parallel for
+#pragma omp parallel for if (faces.size() > kWorthThreads)
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Box box = box_of(faces[f], frame);
     const int u = (faces[f].axis + 1) % 3;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 #include "mesher/core/progress.hpp"
+#include "metrics/box_tree.hpp"
 #include "metrics/evaluate.hpp"
 
 namespace cbc3d::metrics::test {
@@ -104,9 +106,38 @@ inline Mesh bcc_block(int n, double side_mm, Label label) {
   return mesh;
 }
 
-inline nlohmann::json judge(const Mesh& mesh, const LabelImage& image) {
+/// A sphere about the origin: the faces of a cube in n x n squares, blown up; convex, outward normals.
+inline std::vector<Triangle> sphere_triangles(double radius, int n) {
+  std::vector<Triangle> triangles;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      const auto at = [&](int u, int v) {
+        Vec3 p{};
+        p[axis] = side;
+        // Equal angles make the squares nearly equal.
+        p[(axis + 1) % 3] = std::tan(M_PI / 4 * (2.0 * u / n - 1));
+        p[(axis + 2) % 3] = std::tan(M_PI / 4 * (2.0 * v / n - 1));
+        return radius * p.normalized();
+      };
+      for (int u = 0; u < n; ++u) {
+        for (int v = 0; v < n; ++v) {
+          const Vec3 a = at(u, v), b = at(u + 1, v), c = at(u + 1, v + 1), d = at(u, v + 1);
+          // By the diagonal that leaves the surface convex.
+          const bool ac = side * six_volumes(a, b, c, d) <= 0;
+          const Triangle first = ac ? Triangle{a, b, c} : Triangle{a, b, d};
+          const Triangle second = ac ? Triangle{a, c, d} : Triangle{b, c, d};
+          for (const Triangle& t : {first, second})
+            triangles.push_back(side > 0 ? t : Triangle{t.a, t.c, t.b});
+        }
+      }
+    }
+  }
+  return triangles;
+}
+
+inline nlohmann::json judge(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options = {}) {
   Progress quiet(true);
-  return evaluate(mesh, image, {}, quiet);
+  return evaluate(mesh, image, options, quiet);
 }
 
 }  // namespace cbc3d::metrics::test

