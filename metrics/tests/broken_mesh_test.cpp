@@ -59,8 +59,8 @@ TEST_F(BrokenMesh, SoundFileIsRead) {
 }
 
 TEST_F(BrokenMesh, UnknownCellType) {
-  write("type.vtk", vtk_text("0 0 1", 42, kLabel));  // a polyhedron
-  EXPECT_TRUE(contains(error_of("type.vtk"), "type.vtk"));
+  write("type.vtk", vtk_text("0 0 1", 24, kLabel));  // a quadratic tet
+  EXPECT_TRUE(contains(error_of("type.vtk"), "cells of VTK type 24")) << error_of("type.vtk");
   write("quadratic.msh",
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
         "$Elements\n1\n1 11 2 1 1 1 2 3 4 1 2 3 4 1 2\n$EndElements\n");
