@@ -45,7 +45,7 @@ class BoxTree {
     }
     nodes_.resize(2 * leaves - 1);
     first_leaf_ = leaves - 1;
-#pragma omp parallel
+#pragma omp parallel if (primitives_.size() > kTaskSize)
 #pragma omp single
     build(0, 0, primitives_.size());
   }
@@ -54,8 +54,12 @@ class BoxTree {
     return primitives_.empty();
   }
 
-  /// Squared distance to the nearest primitive (infinity without one), and which one it is. `hint`, an index
-  /// this returned for a nearby point, only makes it faster.
+  [[nodiscard]] const Primitive& primitive(std::size_t index) const {
+    return primitives_[index];
+  }
+
+  /// Squared distance to the nearest primitive (infinity without one), and which one it is: of several the
+  /// one of the lowest index. `hint`, an index this returned for a nearby point, only makes it faster.
   struct Nearest {
     double squared;
     std::size_t index;
@@ -70,7 +74,7 @@ class BoxTree {
     stack[depth++] = {nodes_[0].squared_distance(p), 0, 0, primitives_.size()};
     while (depth > 0) {
       const Pending at = stack[--depth];
-      if (at.squared >= best.squared) {
+      if (at.squared > best.squared) {
         continue;
       }
       if (at.node >= first_leaf_) {
@@ -117,6 +121,7 @@ class BoxTree {
 
  private:
   static constexpr std::size_t kLeafSize = 4;
+  static constexpr std::size_t kTaskSize = 32768;
   struct Pending {
     double squared;
     std::size_t node, begin, end;
@@ -125,7 +130,7 @@ class BoxTree {
   void search_leaf(const Vec3& p, const Pending& leaf, Nearest& best) const {
     for (std::size_t i = leaf.begin; i < leaf.end; ++i) {
       const double squared = primitives_[i].squared_distance(p);
-      if (squared < best.squared) {
+      if (squared < best.squared || (squared == best.squared && i < best.index)) {
         best = {squared, i};
       }
     }
@@ -152,7 +157,6 @@ class BoxTree {
     std::nth_element(at(begin), at(middle), at(end), [axis](const Primitive& a, const Primitive& b) {
       return middle_of(a)[axis] < middle_of(b)[axis];
     });
-    constexpr std::size_t kTaskSize = 32768;
 #pragma omp task if (end - begin > kTaskSize)
     build(2 * node + 1, begin, middle);
     build(2 * node + 2, middle, end);

@@ -1,34 +1,16 @@
-// Shape of the elements.
+// Shape of the elements of a mesh: extremes, histogram, percentiles and counts of what is broken.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
+#include <vector>
 
-#include "mesher/core/mesh.hpp"
 #include "metrics/cells.hpp"
+#include "metrics/element_shapes.hpp"
 
 namespace cbc3d::metrics {
-
-/// The six dihedral angles of a tetrahedron, degrees in [0,180]; of an inverted one those of its mirror
-/// image. Edges in the order 01 02 03 12 13 23.
-std::array<double, 6> dihedral_angles_deg(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-
-/// Verdict's scaled Jacobian of a tetrahedron: 1 regular, .9428 BCC, .7071 right corner, negative inverted;
-/// 0 for a degenerate one.
-double scaled_jacobian_tet(const std::array<Vec3, 4>& p);
-/// Verdict's (1.4) scaled Jacobian of a pyramid: smallest of the four tets on the base corners, 1 when all
-/// eight edges are equal; 0 when inverted.
-double scaled_jacobian_pyramid(const std::array<Vec3, 5>& p);
-/// Smallest base corner Jacobian times sqrt(3): 1 for the pyramid over a face of a body-centred cubic lattice
-/// (height half the base). Negative when inverted.
-double scaled_jacobian_pyramid_bcc(const std::array<Vec3, 5>& p);
-/// Verdict's scaled Jacobian of a wedge: 1 for a right prism over an equilateral triangle.
-double scaled_jacobian_wedge(const std::array<Vec3, 6>& p);
-/// Verdict's scaled Jacobian of a hexahedron, over corners and centre: 1 for a box.
-double scaled_jacobian_hex(const std::array<Vec3, 8>& p);
 
 inline constexpr std::size_t kDihedralBins = 36;
 inline constexpr double kDihedralBinDeg = 5;
@@ -37,18 +19,44 @@ inline constexpr double kDihedralBinDeg = 5;
 /// it, so that the 60 and 90 degrees of a lattice do not scatter over two bins by rounding.
 std::size_t dihedral_bin(double angle_deg);
 
+/// The percentiles that are given of every measure.
+inline constexpr std::array<int, 7> kPercentiles{1, 5, 25, 50, 75, 95, 99};
+/// Values at kPercentiles: the smallest value that at least so many percent of the values do not exceed, in
+/// single precision. Nothing of no values.
+using Percentiles = std::optional<std::array<double, kPercentiles.size()>>;
+/// Reorders the values.
+Percentiles percentiles_of(std::vector<float>& values);
+
+/// The cells of one label, or all. Measures of a kind of which there is no cell are nothing.
 struct ElementQuality {
+  std::int64_t cells = 0;
   std::optional<double> min_dihedral_deg, max_dihedral_deg;      ///< over the tets
   std::array<std::int64_t, kDihedralBins> dihedral_histogram{};  ///< all six angles of every tet
+  Percentiles dihedral_deg;
+  std::optional<double> max_radius_ratio, min_mean_ratio;  ///< over the tets; see element_shapes.hpp
+  Percentiles radius_ratio, mean_ratio;
   std::optional<double> min_sj_tets, min_sj_pyramids, min_sj_pyramids_bcc, min_sj_wedges, min_sj_hexes;
-  std::int64_t inverted = 0;  ///< cells whose volume (see split_into_tets) is not positive
+  Percentiles scaled_jacobian;         ///< Verdict's, over all cells
+  std::int64_t inverted = 0;           ///< cells whose volume (see split_into_tets) is not positive
+  std::int64_t degenerate = 0;         ///< of these, volume zero: below 1e-12 of the longest side cubed
+  std::int64_t negative_jacobian = 0;  ///< cells whose scaled Jacobian is not positive: folded at a corner
+  std::optional<std::size_t> first_inverted;  ///< number of the first inverted cell, see MeshView
 };
 
-ElementQuality element_quality(const MeshView& view);
+struct MeshQuality {
+  ElementQuality all;
+  std::vector<ElementQuality> per_label;  ///< by index into MeshView::labels()
+};
 
-/// Keys: min_dihedral_deg, max_dihedral_deg, dihedral_histogram_5deg (tets only), min_scaled_jacobian
-/// (Verdict's, over all cells), inverted, and per kind of cell min_scaled_jacobian_tets, _pyramids,
-/// _pyramids_bcc, _wedges, _hexes.
-nlohmann::json to_json(const ElementQuality& quality);
+/// Time n; memory about 100 bytes a cell.
+MeshQuality element_quality(const MeshView& view);
+
+/// Keys: cells, min_dihedral_deg, max_dihedral_deg, dihedral_histogram_5deg, dihedral_percentiles_deg,
+/// max_radius_ratio, radius_ratio_percentiles, min_mean_ratio, mean_ratio_percentiles (these tets only),
+/// min_scaled_jacobian and scaled_jacobian_percentiles (Verdict's, over all cells), per kind of cell
+/// min_scaled_jacobian_tets, _pyramids, _pyramids_bcc, _wedges, _hexes, inverted, degenerate,
+/// negative_jacobian; scaled_jacobian_norms names the normalisation of each kind; per_label has label and the
+/// same. Percentiles are objects p1 ... p99.
+nlohmann::json to_json(const MeshQuality& quality, const MeshView& view);
 
 }  // namespace cbc3d::metrics

@@ -9,14 +9,22 @@
 
 namespace cbc3d::metrics {
 
-/// What is measured; all of it so far.
-struct EvaluateOptions {};
+/// Default tolerance of the certified distances, in the smallest voxel spacing.
+inline constexpr double kRelativeTolerance = 0.02;
+
+/// What is measured.
+struct EvaluateOptions {
+  bool smooth = true;       ///< distances to and smoothness against the smooth surfaces of the labels
+  bool certified = true;    ///< certified bounds of the surface Hausdorff distances
+  double tolerance_mm = 0;  ///< upper less lower bound; 0: kRelativeTolerance of the smallest spacing
+};
 
 /// Judges `mesh` (physical LPS mm) against `image`. Returns an object with exactly the keys
 ///   counts    vertices, tets, pyramids, wedges, hexes;
 ///   quality   see element_quality.hpp;
-///   fidelity  see point_set_hausdorff.hpp, surface_hausdorff.hpp, dice.hpp, volumes.hpp, labels.hpp;
-///   topology  see topology.hpp.
+///   fidelity  see fidelity.hpp;
+///   topology  see topology.hpp;
+///   faults    what is wrong with the mesh, a line each, see faults.hpp.
 /// A figure that cannot be had is null, never NaN. The bytes do not depend on the thread count. Throws
 /// InputError when a cell names a vertex that does not exist or a coordinate is not finite.
 nlohmann::json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options,

@@ -15,7 +15,7 @@ struct OuterTriangle : Triangle {
 
 }  // namespace
 
-std::int64_t count_hanging_vertices(const MeshView& view, const Surface& surface) {
+CountedFault count_hanging_vertices(const MeshView& view, const Surface& surface) {
   constexpr double kRelativeTolerance = 1e-9;
   const std::vector<Vec3>& points = view.local_points();
   std::vector<OuterTriangle> triangles;
@@ -36,7 +36,7 @@ std::int64_t count_hanging_vertices(const MeshView& view, const Surface& surface
                     facet.nodes.begin() + static_cast<std::ptrdiff_t>(facet.corners()));
   }
   if (triangles.empty()) {
-    return 0;
+    return {};
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -44,13 +44,16 @@ std::int64_t count_hanging_vertices(const MeshView& view, const Surface& surface
       kRelativeTolerance * kRelativeTolerance * (extent.high - extent.low).squared_norm();
   const BoxTree<OuterTriangle> tree(std::move(triangles));
   std::int64_t hanging = 0;
-#pragma omp parallel for reduction(+ : hanging) schedule(dynamic, 1024)
-  for (const VertexId v : vertices) {
+  std::size_t first = vertices.size();
+#pragma omp parallel for reduction(+ : hanging) reduction(min : first) schedule(dynamic, 1024)
+  for (std::size_t n = 0; n < vertices.size(); ++n) {
+    const VertexId v = vertices[n];
     const bool hangs = tree.any_within(points[v], squared_tolerance,
                                        [v](const OuterTriangle& triangle) { return !triangle.has(v); });
     hanging += hangs ? 1 : 0;
+    first = hangs ? std::min(first, n) : first;
   }
-  return hanging;
+  return {hanging, hanging > 0 ? vertices[first] : 0};
 }
 
 }  // namespace cbc3d::metrics

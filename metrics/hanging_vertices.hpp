@@ -1,15 +1,14 @@
 // Vertices that sit on a neighbour without being one of its vertices.
 #pragma once
 
-#include <cstdint>
-
+#include "metrics/counted_fault.hpp"
 #include "metrics/surface.hpp"
 
 namespace cbc3d::metrics {
 
-/// Number of vertices of the outer surface that lie in a facet or on an edge of it (within 1e-9 of the
+/// Vertices of the outer surface that lie in a facet or on an edge of it (within 1e-9 of the
 /// mesh's extent) of which they are no vertex: where cells meet edge to half an edge, or where two vertices
 /// coincide.
-std::int64_t count_hanging_vertices(const MeshView& view, const Surface& surface);
+CountedFault count_hanging_vertices(const MeshView& view, const Surface& surface);
 
 }  // namespace cbc3d::metrics

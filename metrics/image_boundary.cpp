@@ -17,8 +17,8 @@ void collect_slice(const LabelImage& image, int k, std::vector<MaterialBoundary>
         for (const std::int8_t side : {-1, 1}) {
           const int at[3] = {i + (axis == 0 ? side : 0), j + (axis == 1 ? side : 0),
                              k + (axis == 2 ? side : 0)};
-          if (image.at_or_background(at[0], at[1], at[2]) != own) {
-            boundary.faces.push_back({{i, j, k}, axis, side});
+          if (const MaterialId other = image.at_or_background(at[0], at[1], at[2]); other != own) {
+            boundary.faces.push_back({{i, j, k}, axis, side, other});
           }
         }
       }
@@ -32,6 +32,18 @@ Vec3 centre_of(const VoxelFace& face, const ImageFrame& frame) {
   Vec3 centre = frame.local_centre(face.voxel[0], face.voxel[1], face.voxel[2]);
   centre[face.axis] += 0.5 * face.side * frame.spacing_mm[face.axis];
   return centre;
+}
+
+Box box_of(const VoxelFace& face, const ImageFrame& frame) {
+  const Vec3 centre = centre_of(face, frame);
+  Vec3 half = 0.5 * frame.spacing_mm;
+  half[face.axis] = 0;
+  return {centre - half, centre + half};
+}
+
+Vec3 voxel_face_areas_mm2(const ImageFrame& frame) {
+  const Vec3& s = frame.spacing_mm;
+  return {s.y * s.z, s.x * s.z, s.x * s.y};
 }
 
 std::vector<MaterialBoundary> image_boundaries(const LabelImage& image) {

@@ -10,6 +10,9 @@
 
 namespace cbc3d::metrics {
 
+/// Loops over fewer items are not worth waking other threads.
+inline constexpr std::size_t kWorthThreads = 2048;
+
 /// Parallel sums over [0, count) into `slots` accumulators: `add(index, accumulators)` is called in ascending
 /// order within blocks of fixed length, and the blocks are added up in order.
 template <class Value, class Add>
@@ -17,7 +20,7 @@ std::vector<Value> ordered_sums(std::size_t count, std::size_t slots, const Add&
   constexpr std::size_t kBlock = 16384;
   const std::size_t blocks = (count + kBlock - 1) / kBlock;
   std::vector<std::vector<Value>> partial(blocks);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (blocks > 1)
   for (std::size_t b = 0; b < blocks; ++b) {
     std::vector<Value> mine(slots, Value{});
     for (std::size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) {

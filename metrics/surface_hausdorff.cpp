@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/box_tree.hpp"
 #include "metrics/reduce.hpp"
 
 namespace cbc3d::metrics {
@@ -31,109 +30,178 @@ double Triangle::squared_distance(const Vec3& p) const {
 
 namespace {
 
-std::vector<Triangle> triangles_of_label(const Surface& surface, std::uint32_t label,
-                                         const std::vector<Vec3>& points) {
-  std::vector<Triangle> triangles;
-  triangles.reserve(surface.facets_of[label].size());
-  for (const std::uint32_t f : surface.facets_of[label]) {
-    const FacetTriangles split = triangles_of(surface.facets[f]);
-    for (int t = 0; t < split.count; ++t) {
-      const auto& [a, b, c] = split.triangles[static_cast<std::size_t>(t)];
-      triangles.push_back({points[a], points[b], points[c]});
+template <class Primitive>
+using NearestList = std::vector<typename BoxTree<Primitive>::Nearest>;
+
+template <class Primitive>
+NearestList<Primitive> find_nearest(const std::vector<Vec3>& points, const BoxTree<Primitive>& tree) {
+  NearestList<Primitive> result(points.size());
+#pragma omp parallel if (points.size() > kWorthThreads)
+  {
+    std::size_t hint = 0;  // neighbouring samples have neighbouring nearest primitives
+#pragma omp for schedule(static)
+    for (std::size_t s = 0; s < points.size(); ++s) {
+      result[s] = tree.nearest(points[s], hint);
+      hint = result[s].index;
     }
+  }
+  return result;
+}
+
+struct WeightedDistance {
+  double distance, weight;
+};
+
+// Smallest distance that at least 95 % of the samples do not exceed; reorders them.
+double percentile95(std::vector<WeightedDistance>& samples) {
+  const auto rank = static_cast<std::ptrdiff_t>((samples.size() * 95 + 99) / 100) - 1;
+  std::nth_element(samples.begin(), samples.begin() + rank, samples.end(),
+                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  return samples[static_cast<std::size_t>(rank)].distance;
+}
+
+// Smallest distance that 95 % of the area does not exceed, by halving as for a median; reorders the samples.
+double weighted_percentile95(std::vector<WeightedDistance>& samples, double total) {
+  std::size_t begin = 0, end = samples.size();
+  double below = 0;
+  while (end - begin > 1) {
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [&](std::size_t n) { return samples.begin() + static_cast<std::ptrdiff_t>(n); };
+    std::nth_element(at(begin), at(middle), at(end),
+                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    double lower_half = 0;
+    for (std::size_t n = begin; n < middle; ++n) {
+      lower_half += samples[n].weight;
+    }
+    if (below + lower_half >= 0.95 * total) {
+      end = middle;
+    } else {
+      below += lower_half;
+      begin = middle;
+    }
+  }
+  return samples[begin].distance;
+}
+
+template <class Primitive>
+DirectedDistance directed_distance(const SampledSurface& from, const BoxTree<Primitive>& tree,
+                                   const std::optional<CertifyOptions>& certify) {
+  const NearestList<Primitive> nearest = find_nearest(from.points, tree);
+  std::vector<WeightedDistance> samples(nearest.size());
+#pragma omp parallel for if (samples.size() > kWorthThreads)
+  for (std::size_t n = 0; n < samples.size(); ++n) {
+    samples[n] = {std::sqrt(nearest[n].squared), from.weights_mm2[n]};
+  }
+  enum Sum { kDistance, kSquare, kWeight, kWeighted, kWeightedSquare, kSums };
+  const auto sums = ordered_sums<double>(samples.size(), kSums, [&](std::size_t n, std::vector<double>& sum) {
+    const auto& [distance, weight] = samples[n];
+    sum[kDistance] += distance;
+    sum[kSquare] += distance * distance;
+    sum[kWeight] += weight;
+    sum[kWeighted] += weight * distance;
+    sum[kWeightedSquare] += weight * distance * distance;
+  });
+  DirectedDistance result;
+  result.samples = static_cast<std::int64_t>(samples.size());
+  result.sampled_sum_mm = sums[kDistance];
+  result.sampled_sum_mm2 = sums[kSquare];
+  result.area_mm2 = from.area_mm2;
+  result.mean_mm = sums[kWeight] > 0 ? sums[kWeighted] / sums[kWeight] : 0;
+  result.rms_mm = sums[kWeight] > 0 ? std::sqrt(sums[kWeightedSquare] / sums[kWeight]) : 0;
+  result.sampled_p95_mm = percentile95(samples);
+  result.p95_mm = weighted_percentile95(samples, sums[kWeight]);
+  for (const auto& sample : samples) {
+    result.sampled_max_mm = std::max(result.sampled_max_mm, sample.distance);
+  }
+  if (certify) {
+    result.bounds = certified_distance(from, tree, nearest, *certify);
+  }
+  return result;
+}
+
+template <class Image>
+std::optional<SurfaceDistance> both_ways(const Image& image, const SearchableSurface<Triangle>& mesh,
+                                         const std::optional<CertifyOptions>& certify) {
+  if (image.sampled.pieces.empty() || mesh.sampled.pieces.empty()) {
+    return std::nullopt;
+  }
+  return SurfaceDistance{directed_distance(image.sampled, mesh.tree, certify),
+                         directed_distance(mesh.sampled, image.tree, certify)};
+}
+
+std::vector<Triangle> triangles_of_pieces(const SampledSurface& sampled) {
+  std::vector<Triangle> triangles(sampled.pieces.size());
+  for (std::size_t n = 0; n < triangles.size(); ++n) {
+    const auto& p = sampled.pieces[n].p;
+    triangles[n] = {p[0], p[1], p[2]};
   }
   return triangles;
 }
 
-// Vertices, then facet by facet midpoints of edges and centroids of triangles. An edge is taken at the facet
-// that runs it upwards; the other facet at it runs it downwards.
-std::vector<Vec3> samples_of_label(const Surface& surface, std::uint32_t label,
-                                   const std::vector<Vec3>& points) {
-  std::vector<Vec3> samples;
-  for (const std::uint32_t f : surface.facets_of[label]) {
-    const SurfaceFacet& facet = surface.facets[f];
-    const bool outward = facet.inside == label;
-    for (std::size_t n = 0; n < facet.corners(); ++n) {
-      const VertexId from = facet.nodes[n], to = facet.nodes[(n + 1) % facet.corners()];
-      if ((from < to) == outward) {
-        samples.push_back(0.5 * (points[from] + points[to]));
-      }
-    }
-    const FacetTriangles split = triangles_of(facet);
-    for (int t = 0; t < split.count; ++t) {
-      const auto& [a, b, c] = split.triangles[static_cast<std::size_t>(t)];
-      samples.push_back((points[a] + points[b] + points[c]) / 3);
-    }
-  }
-  for (const VertexId v : surface.vertices_of[label]) {
-    samples.push_back(points[v]);
-  }
-  return samples;
-}
-
-AlignedBox box_of(const VoxelFace& face, const ImageFrame& frame) {
-  const Vec3 centre = centre_of(face, frame);
-  Vec3 half = 0.5 * frame.spacing_mm;
-  half[face.axis] = 0;
-  return {{centre - half, centre + half}};
-}
-
-template <class Primitive>
-std::vector<double> distances(const std::vector<Vec3>& samples, const BoxTree<Primitive>& tree) {
-  std::vector<double> result(samples.size());
-#pragma omp parallel
-  {
-    std::size_t hint = 0;  // neighbouring samples have neighbouring nearest primitives
-#pragma omp for schedule(static)
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-      const auto nearest = tree.nearest(samples[s], hint);
-      hint = nearest.index;
-      result[s] = std::sqrt(nearest.squared);
-    }
-  }
-  return result;
-}
-
-double sum_of(const std::vector<double>& values) {
-  return ordered_sums<double>(values.size(), 1,
-                              [&](std::size_t i, std::vector<double>& sum) { sum[0] += values[i]; })[0];
-}
-
-// Smallest value that at least 95 % of the values do not exceed; reorders them.
-double percentile95(std::vector<double>& values) {
-  const auto rank = static_cast<std::ptrdiff_t>((values.size() * 95 + 99) / 100) - 1;
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+SearchableSurface<Triangle> searchable(SampledSurface sampled) {
+  BoxTree<Triangle> tree(triangles_of_pieces(sampled));
+  return {std::move(sampled), std::move(tree)};
 }
 
 }  // namespace
 
-std::optional<SurfaceDistance> surface_distance(const std::vector<VoxelFace>& image_faces,
-                                                const ImageFrame& frame, const Surface& surface,
-                                                std::uint32_t label_index,
-                                                const std::vector<Vec3>& local_points) {
-  if (image_faces.empty() || surface.facets_of[label_index].empty()) {
+double SurfaceDistance::hausdorff_mm() const {
+  return std::max(image_to_mesh.sampled_max_mm, mesh_to_image.sampled_max_mm);
+}
+
+double SurfaceDistance::hd95_mm() const {
+  return std::max(image_to_mesh.sampled_p95_mm, mesh_to_image.sampled_p95_mm);
+}
+
+std::optional<DistanceBounds> SurfaceDistance::bounds() const {
+  const auto &a = image_to_mesh.bounds, &b = mesh_to_image.bounds;
+  if (!a || !b) {
     return std::nullopt;
   }
-  std::vector<Vec3> image_samples(image_faces.size());
-  std::vector<AlignedBox> boxes(image_faces.size());
-#pragma omp parallel for
-  for (std::size_t f = 0; f < image_faces.size(); ++f) {
-    image_samples[f] = centre_of(image_faces[f], frame);
-    boxes[f] = box_of(image_faces[f], frame);
-  }
-  const BoxTree<Triangle> mesh_tree(triangles_of_label(surface, label_index, local_points));
-  std::vector<double> to_mesh = distances(image_samples, mesh_tree);
-  const BoxTree<AlignedBox> image_tree(std::move(boxes));
-  std::vector<double> to_image = distances(samples_of_label(surface, label_index, local_points), image_tree);
+  return DistanceBounds{std::max(a->lower_mm, b->lower_mm), std::max(a->upper_mm, b->upper_mm)};
+}
 
-  SurfaceDistance result{};
-  result.sum_mm = sum_of(to_mesh) + sum_of(to_image);
-  result.samples = static_cast<std::int64_t>(to_mesh.size() + to_image.size());
-  result.hausdorff_mm = std::max(*std::max_element(to_mesh.begin(), to_mesh.end()),
-                                 *std::max_element(to_image.begin(), to_image.end()));
-  result.hd95_mm = std::max(percentile95(to_mesh), percentile95(to_image));
-  return result;
+double SurfaceDistance::mean_mm() const {
+  const DirectedDistance &a = image_to_mesh, &b = mesh_to_image;
+  return (a.area_mm2 * a.mean_mm + b.area_mm2 * b.mean_mm) / (a.area_mm2 + b.area_mm2);
+}
+
+double SurfaceDistance::rms_mm() const {
+  const DirectedDistance &a = image_to_mesh, &b = mesh_to_image;
+  return std::sqrt((a.area_mm2 * a.rms_mm * a.rms_mm + b.area_mm2 * b.rms_mm * b.rms_mm) /
+                   (a.area_mm2 + b.area_mm2));
+}
+
+SearchableSurface<Triangle> searchable_facets(const Surface& surface,
+                                              const std::vector<std::uint32_t>& facets,
+                                              const std::vector<Vec3>& points) {
+  return searchable(sample_facets(surface, facets, points));
+}
+
+SearchableSurface<AlignedBox> searchable_voxel_faces(const std::vector<VoxelFace>& faces,
+                                                     const ImageFrame& frame) {
+  std::vector<AlignedBox> boxes(faces.size());
+#pragma omp parallel for if (faces.size() > kWorthThreads)
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    boxes[f] = {box_of(faces[f], frame)};
+  }
+  return {sample_voxel_faces(faces, frame), BoxTree<AlignedBox>(std::move(boxes))};
+}
+
+SearchableSurface<Triangle> searchable_triangles(const std::vector<SmoothTriangle>& triangles) {
+  return searchable(sample_triangles(triangles));
+}
+
+std::optional<SurfaceDistance> surface_distance(const SearchableSurface<AlignedBox>& image,
+                                                const SearchableSurface<Triangle>& mesh,
+                                                const std::optional<CertifyOptions>& certify) {
+  return both_ways(image, mesh, certify);
+}
+
+std::optional<SurfaceDistance> surface_distance(const SearchableSurface<Triangle>& image,
+                                                const SearchableSurface<Triangle>& mesh,
+                                                const std::optional<CertifyOptions>& certify) {
+  return both_ways(image, mesh, certify);
 }
 
 }  // namespace cbc3d::metrics

@@ -1,36 +1,15 @@
 #include "metrics/topology.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <tuple>
 
+#include "metrics/box_tree.hpp"
+#include "metrics/disjoint_sets.hpp"
 #include "metrics/hanging_vertices.hpp"
 
 namespace cbc3d::metrics {
 namespace {
-
-// Disjoint sets of cells; the lowest cell of a set is its root.
-class CellSets {
- public:
-  explicit CellSets(std::size_t cells) : parent_(cells) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::uint32_t root(std::uint32_t cell) {
-    while (parent_[cell] != cell) {
-      parent_[cell] = parent_[parent_[cell]];
-      cell = parent_[cell];
-    }
-    return cell;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // True when a triangle on three vertices of a quad exists among the lone facets: the two do not match.
 bool quad_meets_triangle(const std::vector<Facet>& lone) {
@@ -56,8 +35,15 @@ bool quad_meets_triangle(const std::vector<Facet>& lone) {
   return false;
 }
 
-bool check_runs(const MeshView& view, const std::vector<Facet>& facets, CellSets& sets) {
-  bool conforming = true;
+void note(CountedFault& fault, std::size_t at) {
+  if (fault.count++ == 0) {
+    fault.first = at;
+  }
+}
+
+// Counts what is wrong with facets and joins the cells of a label that share one.
+void check_runs(const MeshView& view, const std::vector<Facet>& facets, DisjointSets& cells,
+                Topology& result) {
   std::vector<Facet> lone;
   const bool all_tets = view.mesh().tets.size() == view.cell_count();
   for_each_facet_run(facets, [&](std::size_t first, std::size_t last) {
@@ -68,15 +54,63 @@ bool check_runs(const MeshView& view, const std::vector<Facet>& facets, CellSets
       }
       return;
     }
-    const Facet& other = facets[first + 1];
-    conforming = conforming && last - first == 2 && one.reversed != other.reversed;
+    if (last - first > 2) {
+      note(result.overfull_facets, one.cell);
+    } else if (one.reversed == facets[first + 1].reversed) {
+      note(result.misoriented_facets, one.cell);
+    }
     for (std::size_t f = first + 1; f < last; ++f) {
       if (view.label_index(one.cell) == view.label_index(facets[f].cell)) {
-        sets.join(one.cell, facets[f].cell);
+        cells.join(one.cell, facets[f].cell);
       }
     }
   });
-  return conforming && !quad_meets_triangle(lone);
+  result.conforming =
+      result.overfull_facets.count == 0 && result.misoriented_facets.count == 0 && !quad_meets_triangle(lone);
+}
+
+// A vertex as a primitive of a tree.
+struct Site {
+  Vec3 at;
+  VertexId vertex;
+
+  void add_to(Box& box) const { box.add(at); }
+  [[nodiscard]] double squared_distance(const Vec3& p) const { return (p - at).squared_norm(); }
+};
+
+void check_vertices(const MeshView& view, Topology& result) {
+  constexpr double kRelativeTolerance = 1e-9;  // of the mesh's extent
+  const std::vector<Vec3>& points = view.mesh().points;
+  std::vector<bool> used(points.size(), false);
+  for (std::size_t c = 0; c < view.cell_count(); ++c) {
+    for (const VertexId v : view.cell(c).nodes) {
+      used[v] = true;
+    }
+  }
+  std::vector<Site> sites;
+  Box extent;
+  for (VertexId v = 0; v < points.size(); ++v) {
+    if (used[v]) {
+      sites.push_back({points[v], v});
+      extent.add(points[v]);
+    } else {
+      note(result.unused_vertices, v);
+    }
+  }
+  const BoxTree<Site> tree(sites);
+  const double squared =
+      sites.empty() ? 0 : kRelativeTolerance * kRelativeTolerance * (extent.high - extent.low).squared_norm();
+  std::vector<char> twice(sites.size(), 0);
+#pragma omp parallel for schedule(dynamic, 1024)
+  for (std::size_t n = 0; n < sites.size(); ++n) {
+    twice[n] = tree.any_within(sites[n].at, squared,
+                               [&](const Site& other) { return other.vertex < sites[n].vertex; });
+  }
+  for (std::size_t n = 0; n < sites.size(); ++n) {
+    if (twice[n] != 0) {
+      note(result.duplicate_vertices, sites[n].vertex);
+    }
+  }
 }
 
 // Corner of a facet: the vertex and its two neighbours along the facet.
@@ -171,34 +205,80 @@ Topology topology(const MeshView& view, const std::vector<Facet>& facets, const 
   for (std::size_t l = 0; l < result.per_label.size(); ++l) {
     result.per_label[l] = check_surface(surface, static_cast<std::uint32_t>(l));
   }
-  CellSets sets(view.cell_count());
+  DisjointSets cells(view.cell_count());
+  check_runs(view, facets, cells, result);
+  check_vertices(view, result);
   result.hanging_vertices = count_hanging_vertices(view, surface);
-  result.conforming = check_runs(view, facets, sets) && result.hanging_vertices == 0;
+  result.conforming = result.conforming && result.hanging_vertices.count == 0;
   for (std::size_t c = 0; c < view.cell_count(); ++c) {
     const auto cell = static_cast<std::uint32_t>(c);
-    result.per_label[view.label_index(c)].components += sets.root(cell) == cell ? 1 : 0;
+    result.per_label[view.label_index(c)].components += cells.root(cell) == cell ? 1 : 0;
   }
+  result.betti = mesh_betti(view, facets);
   return result;
 }
 
-nlohmann::json to_json(const Topology& topology, const MeshView& view) {
+namespace {
+
+using nlohmann::json;
+
+void write_betti(json& object, const CellSetTopology& mesh, const VoxelSetTopology* image) {
+  object["euler"] = mesh.euler;
+  object["betti"] = mesh.betti ? json(mesh.betti->b) : json(nullptr);
+  object["image_euler"] = object["image_betti"] = object["image_open_euler"] = object["image_open_betti"] =
+      object["image_ambiguous_places"] = object["betti_as_image"] = nullptr;
+  if (image == nullptr) {
+    return;
+  }
+  object["image_euler"] = image->closed.euler();
+  object["image_betti"] = image->closed.b;
+  object["image_open_euler"] = image->open.euler();
+  object["image_open_betti"] = image->open.b;
+  object["image_ambiguous_places"] = image->ambiguous;
+  if (mesh.betti) {
+    object["betti_as_image"] = *mesh.betti == image->closed || *mesh.betti == image->open;
+  }
+}
+
+const VoxelSetTopology* find_in_image(const ImageTopology& topology, const LabelImage& image, Label label) {
+  for (std::size_t m = 1; m < image.material_count(); ++m) {
+    if (image.labels[m] == label) {
+      return &topology.per_material[m];
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const Topology& topology, const MeshView& view, const ImageTopology& image_topology,
+                       const LabelImage& image) {
   LabelTopology total;
-  auto per_label = nlohmann::json::array();
+  auto per_label = json::array();
   for (std::size_t l = 0; l < topology.per_label.size(); ++l) {
     const LabelTopology& one = topology.per_label[l];
     total.non_manifold_edges += one.non_manifold_edges;
     total.non_manifold_vertices += one.non_manifold_vertices;
     total.components += one.components;
-    per_label.push_back({{"label", view.labels()[l]},
-                         {"non_manifold_edges", one.non_manifold_edges},
-                         {"non_manifold_vertices", one.non_manifold_vertices},
-                         {"components", one.components}});
+    json row{{"label", view.labels()[l]},
+             {"non_manifold_edges", one.non_manifold_edges},
+             {"non_manifold_vertices", one.non_manifold_vertices},
+             {"components", one.components}};
+    write_betti(row, topology.betti.per_label[l], find_in_image(image_topology, image, view.labels()[l]));
+    per_label.push_back(std::move(row));
   }
+  json all;
+  write_betti(all, topology.betti.all, &image_topology.all);
   return {{"conforming", topology.conforming},
-          {"hanging_vertices", topology.hanging_vertices},
+          {"hanging_vertices", topology.hanging_vertices.count},
+          {"misoriented_facets", topology.misoriented_facets.count},
+          {"overfull_facets", topology.overfull_facets.count},
+          {"duplicate_vertices", topology.duplicate_vertices.count},
+          {"unused_vertices", topology.unused_vertices.count},
           {"non_manifold_edges", total.non_manifold_edges},
           {"non_manifold_vertices", total.non_manifold_vertices},
           {"components", total.components},
+          {"all_labels", all},
           {"per_label", per_label}};
 }
 

@@ -17,6 +17,7 @@ struct EvaluateCommandOptions {
   std::string mesh, image, json;
   int threads = 0;
   bool quiet = false;
+  metrics::EvaluateOptions metrics;
 };
 
 /// The figures of a section that are single numbers or flags, a line each.
@@ -39,7 +40,7 @@ int evaluate(const EvaluateCommandOptions& options) {
   progress.step("reading", 0);
   const Mesh mesh = read_mesh(options.mesh);
   const LabelImage image = read_label_image(options.image);
-  const nlohmann::json evaluation = metrics::evaluate(mesh, image, {}, progress);
+  const nlohmann::json evaluation = metrics::evaluate(mesh, image, options.metrics, progress);
   progress.done();
   if (!options.json.empty()) {
     write_text_file(options.json, evaluation.dump(2) + "\n");
@@ -47,6 +48,10 @@ int evaluate(const EvaluateCommandOptions& options) {
   if (!options.quiet) {
     for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
       print_section(evaluation, section);
+    }
+    std::cout << "faults: " << evaluation.at("faults").size() << '\n';
+    for (const nlohmann::json& fault : evaluation.at("faults")) {
+      std::cout << "  " << fault.get<std::string>() << '\n';
     }
   }
   return kExitSuccess;
@@ -57,11 +62,24 @@ int evaluate(const EvaluateCommandOptions& options) {
 Command add_evaluate_command(CLI::App& app) {
   auto options = std::make_shared<EvaluateCommandOptions>();
   CLI::App* parser = app.add_subcommand(
-      "evaluate", "Judges a mesh against a segmentation: counts, quality, fidelity and topology");
+      "evaluate", "Judges a mesh against a segmentation: counts, quality, fidelity, topology and faults");
   parser->add_option("MESH", options->mesh, "mesh with an integer cell array `label`: .vtu, .vtk or .msh")
       ->required();
   parser->add_option("IMAGE", options->image, "label image: NIfTI, NRRD, MHA, INRIMAGE, ...")->required();
   parser->add_option("--json", options->json, "write all figures to this file");
+  parser
+      ->add_flag("--certified,!--no-certified", options->metrics.certified,
+                 "bounds of the surface Hausdorff distances that are certain, not sampled alone")
+      ->default_str("on");
+  parser
+      ->add_option("--tolerance", options->metrics.tolerance_mm,
+                   "distance of these bounds (mm); 0: 0.02 of the smallest voxel spacing")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  parser
+      ->add_flag("--smooth,!--no-smooth", options->metrics.smooth,
+                 "distances to the smooth surfaces between the labels too")
+      ->default_str("on");
   parser->add_option("--threads", options->threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

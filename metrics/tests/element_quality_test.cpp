@@ -60,6 +60,24 @@ TEST(TetQuality, EveryAngleBelongsToItsEdge) {
   EXPECT_EQ(scaled_jacobian_tet({p[0], p[1], p[3], p[2]}), -scaled_jacobian_tet(p));
 }
 
+TEST(TetQuality, RadiusRatioAndMeanRatio) {
+  EXPECT_NEAR(radius_ratio_tet(kRegular), 1, 1e-14);
+  EXPECT_NEAR(std::fabs(mean_ratio_tet(kRegular)), 1, 1e-14);
+  // Right corner: circumradius sqrt(3)/2, inradius 1/(3 + sqrt(3)); V = 1/6, squared edges 3 * 1 + 3 * 2.
+  EXPECT_NEAR(radius_ratio_tet(kCorner), std::sqrt(3.0) / 2 * (3 + std::sqrt(3.0)) / 3, 1e-14);
+  EXPECT_NEAR(mean_ratio_tet(kCorner), 12 * std::pow(.5, 2.0 / 3) / 9, 1e-14);
+  // BCC with long edge 1: circumradius sqrt(5)/4, V = 1/12, four faces of area sqrt(2)/4.
+  EXPECT_NEAR(radius_ratio_tet(kBcc), std::sqrt(5.0) / 4 * (4 * std::sqrt(2.0) / 4) / (3 * 3 * (1.0 / 12)),
+              1e-14);
+  EXPECT_NEAR(mean_ratio_tet(kBcc), 12 * std::pow(.25, 2.0 / 3) / (2 * 1 + 4 * .75), 1e-14);
+  const std::array<Vec3, 4> inverted{kBcc[1], kBcc[0], kBcc[2], kBcc[3]};
+  EXPECT_EQ(mean_ratio_tet(inverted), -mean_ratio_tet(kBcc));
+  EXPECT_NEAR(radius_ratio_tet(inverted), radius_ratio_tet(kBcc), 1e-14);
+  const std::array<Vec3, 4> flat{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}};
+  EXPECT_TRUE(std::isinf(radius_ratio_tet(flat)));
+  EXPECT_EQ(mean_ratio_tet(flat), 0);
+}
+
 TEST(TetQuality, FlatTet) {
   const std::array<Vec3, 4> flat{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}};
   EXPECT_EQ(scaled_jacobian_tet(flat), 0);
@@ -151,6 +169,63 @@ TEST(Quality, NoTetNoDihedral) {
   const auto quality = test::judge(mesh, test::two_boxes())["quality"];
   EXPECT_TRUE(quality["min_dihedral_deg"].is_null());
   EXPECT_EQ(quality["dihedral_histogram_5deg"].size(), 36U);
+}
+
+TEST(Histogram, PercentilesAreNearestRanks) {
+  std::vector<float> values;
+  for (int n = 0; n < 200; ++n)
+    values.push_back(static_cast<float>((n * 77) % 200 + 1));  // 1 to 200, shuffled
+  const auto found = percentiles_of(values);
+  ASSERT_TRUE(found);
+  for (std::size_t p = 0; p < kPercentiles.size(); ++p) EXPECT_EQ((*found)[p], 2.0 * kPercentiles[p]);
+  std::vector<float> one{3};
+  EXPECT_EQ(percentiles_of(one)->front(), 3.0);
+  std::vector<float> none;
+  EXPECT_FALSE(percentiles_of(none));
+}
+
+TEST(Quality, BlockOfTheBccLattice) {
+  const Mesh mesh = test::bcc_block(4, 2.5, 1);
+  ASSERT_EQ(mesh.tets.size(), 4U * 3 * 4 * 4 * 3);  // four round each face between two cells
+  const auto quality = test::judge(mesh, test::two_boxes())["quality"];
+  const auto tets = static_cast<std::int64_t>(mesh.tets.size());
+  EXPECT_EQ(quality["dihedral_histogram_5deg"][12], 4 * tets);
+  EXPECT_EQ(quality["dihedral_histogram_5deg"][18], 2 * tets);
+  EXPECT_NEAR(quality["min_dihedral_deg"].get<double>(), 60, 1e-9);
+  EXPECT_NEAR(quality["max_dihedral_deg"].get<double>(), 90, 1e-9);
+  EXPECT_NEAR(quality["dihedral_percentiles_deg"]["p50"].get<double>(), 60, 1e-4);
+  EXPECT_NEAR(quality["dihedral_percentiles_deg"]["p75"].get<double>(), 90, 1e-4);
+  EXPECT_NEAR(quality["min_scaled_jacobian"].get<double>(), 2 * std::sqrt(2.0) / 3, 1e-12);
+  EXPECT_NEAR(quality["scaled_jacobian_percentiles"]["p99"].get<double>(), 2 * std::sqrt(2.0) / 3, 1e-6);
+  EXPECT_NEAR(quality["max_radius_ratio"].get<double>(), 1.5 * std::sqrt(10.0) / 4.5, 1e-12);
+  EXPECT_NEAR(quality["min_mean_ratio"].get<double>(), 2.4 * std::pow(.25, 2.0 / 3), 1e-12);
+  EXPECT_EQ(quality["inverted"], 0);
+  EXPECT_EQ(quality["degenerate"], 0);
+}
+
+TEST(Quality, EveryLabelHasItsOwnFigures) {
+  Mesh mesh;
+  mesh.points.assign(kBcc.begin(), kBcc.end());
+  for (const Vec3& p : kCorner) mesh.points.push_back(p + Vec3{5, 0, 0});
+  mesh.points.push_back({6, 1, 0});
+  mesh.tets.add({0, 1, 2, 3}, 7);
+  mesh.tets.add({4, 5, 6, 7}, 1);
+  mesh.tets.add({4, 5, 8, 6}, 1);  // flat
+  const auto quality = test::judge(mesh, test::two_boxes())["quality"];
+  ASSERT_EQ(quality["per_label"].size(), 2U);
+  const auto& one = quality["per_label"][0];
+  const auto& seven = quality["per_label"][1];
+  EXPECT_EQ(one["label"], 1);
+  EXPECT_EQ(one["cells"], 2);
+  EXPECT_EQ(one["degenerate"], 1);
+  EXPECT_EQ(one["inverted"], 1);
+  EXPECT_EQ(one["negative_jacobian"], 1);
+  EXPECT_TRUE(one["max_radius_ratio"].is_null());  // infinite
+  EXPECT_EQ(seven["inverted"], 0);
+  EXPECT_NEAR(seven["min_dihedral_deg"].get<double>(), 60, 1e-9);
+  EXPECT_EQ(quality["cells"], 3);
+  EXPECT_EQ(quality["degenerate"], 1);
+  EXPECT_EQ(quality["dihedral_histogram_5deg"][12], 4);
 }
 
 }  // namespace

@@ -187,5 +187,21 @@ TEST(SurfaceDistance, SamplesOfAShiftedBox) {
   EXPECT_LT(fidelity["mean_distance_mm"].get<double>(), 0.25);
 }
 
+TEST(PointSetDistance, PunishesLargeFacetsOfAnExactMesh) {
+  // A box of 20 voxels a side as six tets: the centre of a side's middle voxel is 9.5, 9.5 and .5 from a
+  // corner.
+  LabelImage image = test::empty_image({40, 40, 40}, {1, 1, 1}, {0, 1});
+  test::fill_box(image, {10, 10, 10}, {29, 29, 29}, 1);
+  LabelImage coarse = test::empty_image({3, 3, 3}, {20, 20, 20}, {0, 1});
+  test::fill_box(coarse, {1, 1, 1}, {1, 1, 1}, 1);
+  Mesh mesh = test::kuhn_mesh(coarse);
+  for (Vec3& p : mesh.points) p -= Vec3{.5, .5, .5};
+  const auto fidelity = test::judge(mesh, image)["fidelity"];
+  EXPECT_NEAR(fidelity["hausdorff_mm"].get<double>(), std::sqrt(2 * 9.5 * 9.5 + .25), 1e-9);
+  EXPECT_NEAR(fidelity["surface_hausdorff_bounds_mm"][1].get<double>(), 0, .02 + 1e-12);
+  EXPECT_NEAR(fidelity["volume_error_percent_max"].get<double>(), 0, 1e-9);
+  EXPECT_EQ(fidelity["dice_min"], 1.0);
+}
+
 }  // namespace
 }  // namespace cbc3d::metrics

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 #include "mesher/core/progress.hpp"
+#include "metrics/box_tree.hpp"
 #include "metrics/evaluate.hpp"
 
 namespace cbc3d::metrics::test {
@@ -68,9 +70,74 @@ inline Mesh kuhn_mesh(const LabelImage& image) {
   return mesh;
 }
 
-inline nlohmann::json judge(const Mesh& mesh, const LabelImage& image) {
+/// The body-centred cubic lattice of n cubes a side: four tets round the line between the centres of every
+/// two cubes that share a face.
+inline Mesh bcc_block(int n, double side_mm, Label label) {
+  Mesh mesh;
+  const auto corner = [n](int i, int j, int k) {
+    return static_cast<VertexId>((k * (n + 1) + j) * (n + 1) + i);
+  };
+  for (int k = 0; k <= n; ++k) {
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) mesh.points.push_back(side_mm * Vec3{double(i), double(j), double(k)});
+  }
+  const auto first_centre = static_cast<VertexId>(mesh.points.size());
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) mesh.points.push_back(side_mm * Vec3{i + .5, j + .5, k + .5});
+  }
+  const auto centre = [&](const Index3& c) {
+    return first_centre + static_cast<VertexId>((c[2] * n + c[1]) * n + c[0]);
+  };
+  for (int cell = 0; cell < n * n * n; ++cell) {
+    const Index3 low{cell % n, cell / n % n, cell / n / n};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Index3 high = low;
+      if (++high[axis] == n) continue;
+      std::array<Index3, 4> ring{high, high, high, high};  // round the face between the two
+      const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+      ++ring[1][u], ++ring[2][u], ++ring[2][v], ++ring[3][v];
+      for (std::size_t r = 0; r < 4; ++r) {
+        const Index3 &a = ring[r], &b = ring[(r + 1) % 4];
+        mesh.tets.add({centre(low), corner(a[0], a[1], a[2]), corner(b[0], b[1], b[2]), centre(high)}, label);
+      }
+    }
+  }
+  return mesh;
+}
+
+/// A sphere about the origin: the faces of a cube in n x n squares, blown up; convex, outward normals.
+inline std::vector<Triangle> sphere_triangles(double radius, int n) {
+  std::vector<Triangle> triangles;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      const auto at = [&](int u, int v) {
+        Vec3 p{};
+        p[axis] = side;
+        // Equal angles make the squares nearly equal.
+        p[(axis + 1) % 3] = std::tan(M_PI / 4 * (2.0 * u / n - 1));
+        p[(axis + 2) % 3] = std::tan(M_PI / 4 * (2.0 * v / n - 1));
+        return radius * p.normalized();
+      };
+      for (int u = 0; u < n; ++u) {
+        for (int v = 0; v < n; ++v) {
+          const Vec3 a = at(u, v), b = at(u + 1, v), c = at(u + 1, v + 1), d = at(u, v + 1);
+          // By the diagonal that leaves the surface convex.
+          const bool ac = side * six_volumes(a, b, c, d) <= 0;
+          const Triangle first = ac ? Triangle{a, b, c} : Triangle{a, b, d};
+          const Triangle second = ac ? Triangle{a, c, d} : Triangle{b, c, d};
+          for (const Triangle& t : {first, second})
+            triangles.push_back(side > 0 ? t : Triangle{t.a, t.c, t.b});
+        }
+      }
+    }
+  }
+  return triangles;
+}
+
+inline nlohmann::json judge(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options = {}) {
   Progress quiet(true);
-  return evaluate(mesh, image, {}, quiet);
+  return evaluate(mesh, image, options, quiet);
 }
 
 }  // namespace cbc3d::metrics::test

@@ -1,0 +1,134 @@
+#include "metrics/shape_deviation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "metrics/reduce.hpp"
+
+namespace cbc3d::metrics {
+namespace {
+
+struct WeightedPoint {
+  std::array<double, 3> barycentric;
+  double weight;
+};
+
+// Exact for cubics on a triangle.
+constexpr double kThird = 1.0 / 3, kVertex = 1.0 / 20, kEdge = 2.0 / 15;
+constexpr std::array<WeightedPoint, 7> kRule{{{{1, 0, 0}, kVertex},
+                                              {{0, 1, 0}, kVertex},
+                                              {{0, 0, 1}, kVertex},
+                                              {{.5, .5, 0}, kEdge},
+                                              {{0, .5, .5}, kEdge},
+                                              {{.5, 0, .5}, kEdge},
+                                              {{kThird, kThird, kThird}, 9.0 / 20}}};
+
+// A shape near a point.
+struct ShapeAt {
+  double distance;
+  Vec3 normal;
+  double laplacian;  // sum of the principal curvatures
+};
+
+ShapeAt shape_at(const SignedDistance& shape, const Vec3& p, double step) {
+  const double here = shape(p);
+  ShapeAt result{here, {}, 0};
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 by{};
+    by[axis] = step;
+    const double ahead = shape(p + by), behind = shape(p - by);
+    result.normal[axis] = (ahead - behind) / (2 * step);
+    result.laplacian += (ahead - 2 * here + behind) / (step * step);
+  }
+  result.normal = result.normal.normalized();
+  return result;
+}
+
+struct OutwardTriangle {
+  std::array<Vec3, 3> p;
+};
+
+std::vector<OutwardTriangle> outward_triangles(const MeshView& view, const Surface& surface,
+                                               std::uint32_t label) {
+  const std::vector<Vec3>& points = view.mesh().points;
+  std::vector<OutwardTriangle> result;
+  for (const std::uint32_t f : surface.facets_of[label]) {
+    const FacetTriangles split = triangles_of(surface.facets[f]);
+    for (int t = 0; t < split.count; ++t) {
+      const auto& [a, b, c] = split.triangles[static_cast<std::size_t>(t)];
+      const bool outward = surface.facets[f].inside == label;
+      result.push_back({{points[a], points[outward ? b : c], points[outward ? c : b]}});
+    }
+  }
+  return result;
+}
+
+enum Sum { kArea, kShapeArea, kAngle, kDistance, kSums };
+
+struct Largest {
+  double angle = 0, distance = 0;
+};
+
+void add_triangle(const OutwardTriangle& triangle, const SignedDistance& shape, double step,
+                  std::vector<double>& sums, Largest& largest) {
+  const auto& [a, b, c] = triangle.p;
+  const Vec3 area_vector = 0.5 * (b - a).cross(c - a);
+  const double area = area_vector.norm();
+  if (!(area > 0)) {
+    return;
+  }
+  sums[kArea] += area;
+  for (const auto& [at, weight] : kRule) {
+    const ShapeAt there = shape_at(shape, at[0] * a + at[1] * b + at[2] * c, step);
+    const double cosine = area_vector.dot(there.normal) / area;
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+    const double distance = std::fabs(there.distance);
+    sums[kShapeArea] += weight * area * cosine * (1 - there.distance * there.laplacian);
+    sums[kAngle] += weight * area * angle;
+    sums[kDistance] += weight * area * distance;
+    largest.angle = std::max(largest.angle, angle);
+    largest.distance = std::max(largest.distance, distance);
+  }
+}
+
+ShapeDeviation deviation(const std::vector<OutwardTriangle>& triangles, const SignedDistance& shape,
+                         double step) {
+  std::vector<Largest> largest(triangles.size());
+  const auto sums =
+      ordered_sums<double>(triangles.size(), kSums, [&](std::size_t t, std::vector<double>& sum) {
+        add_triangle(triangles[t], shape, step, sum, largest[t]);
+      });
+  ShapeDeviation result;
+  result.mesh_area_mm2 = sums[kArea];
+  result.shape_area_mm2 = sums[kShapeArea];
+  if (sums[kArea] > 0) {
+    result.mean_normal_deviation_deg = sums[kAngle] / sums[kArea];
+    result.mean_distance_mm = sums[kDistance] / sums[kArea];
+  }
+  if (sums[kShapeArea] > 0) {
+    result.area_excess_percent = 100 * (sums[kArea] / sums[kShapeArea] - 1);
+  }
+  for (const auto& [angle, distance] : largest) {
+    result.max_normal_deviation_deg = std::max(result.max_normal_deviation_deg, angle);
+    result.max_distance_mm = std::max(result.max_distance_mm, distance);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<ShapeDeviation> shape_deviations(const MeshView& view, const Surface& surface,
+                                             const std::map<Label, SignedDistance>& shapes, double step_mm) {
+  std::vector<ShapeDeviation> result;
+  for (const auto& [label, shape] : shapes) {
+    if (const auto index = view.find_label(label)) {
+      result.push_back(deviation(outward_triangles(view, surface, *index), shape, step_mm));
+      result.back().label = label;
+    }
+  }
+  return result;
+}
+
+}  // namespace cbc3d::metrics

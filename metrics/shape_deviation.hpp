@@ -1,0 +1,40 @@
+// A mesh against a smooth shape that is known exactly.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "metrics/surface.hpp"
+
+namespace cbc3d::metrics {
+
+/// Signed distance (mm, negative inside, gradient of length 1 near the surface) at a physical LPS position
+/// (mm). Called from several threads.
+using SignedDistance = std::function<double(const Vec3&)>;
+
+/// A label's surface against the zero level of its signed distance. Integrals are by the seven-point rule of
+/// surface_samples.hpp on each triangle, so that facets may be large.
+struct ShapeDeviation {
+  Label label = 0;
+  /// Mean over the mesh's surface of the angle between the facet's normal and the shape's, degrees in
+  /// [0,180].
+  double mean_normal_deviation_deg = 0;
+  double max_normal_deviation_deg = 0;
+  double mean_distance_mm = 0, max_distance_mm = 0;  ///< absolute, from the mesh's surface to the shape
+  double mesh_area_mm2 = 0;
+  /// Area of the part of the shape that the mesh's surface lies over: the flux of the shape's normals through
+  /// the facets, carried to the shape to first order in distance times curvature.
+  double shape_area_mm2 = 0;
+  /// 100 (mesh area / shape area - 1): 0 for a perfect surface, 50 for the voxel faces of a large ball.
+  double area_excess_percent = 0;
+};
+
+/// One entry for each label of `shapes` that the mesh has, ascending. `step_mm`: of the finite differences;
+/// small against the radii of curvature, large against rounding.
+std::vector<ShapeDeviation> shape_deviations(const MeshView& view, const Surface& surface,
+                                             const std::map<Label, SignedDistance>& shapes,
+                                             double step_mm = 1e-3);
+
+}  // namespace cbc3d::metrics

@@ -1,0 +1,241 @@
+#include "metrics/smooth_surface.hpp"
+
+#include <vtkMarchingCubesTriangleCases.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace cbc3d::metrics {
+namespace {
+
+constexpr int kReach = 2;  // voxels, of the Gaussian
+constexpr double kKeptSign = 0.05;
+
+// Corners of a cell as the table of cases numbers them, and its edges.
+constexpr std::array<Index3, 8> kCorners{
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+constexpr std::array<std::array<std::size_t, 2>, 12> kEdges{
+    {{0, 1}, {1, 2}, {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {3, 7}, {2, 6}}};
+
+std::array<double, 2 * kReach + 1> gaussian() {
+  std::array<double, 2 * kReach + 1> weight{};
+  double sum = 0;
+  for (int n = -kReach; n <= kReach; ++n) {
+    sum += weight[static_cast<std::size_t>(n + kReach)] = std::exp(-0.5 * n * n);
+  }
+  for (double& w : weight) {
+    w /= sum;
+  }
+  return weight;
+}
+
+struct VoxelBox {
+  Index3 low, high;  // inclusive; empty when low > high
+};
+
+VoxelBox bounds_of(const LabelImage& image, MaterialId material) {
+  VoxelBox box{image.frame.size, {-1, -1, -1}};
+  const Index3& size = image.frame.size;
+#pragma omp parallel
+  {
+    VoxelBox mine = box;
+#pragma omp for nowait
+    for (int k = 0; k < size[2]; ++k) {
+      for (int j = 0; j < size[1]; ++j) {
+        const MaterialId* row = image.voxels.data() + image.frame.offset(0, j, k);
+        const MaterialId* end = row + size[0];
+        const MaterialId* first = std::find(row, end, material);
+        if (first == end) {
+          continue;
+        }
+        const MaterialId* last = end - 1;
+        while (*last != material) {
+          --last;
+        }
+        mine.low = {std::min(mine.low[0], static_cast<int>(first - row)), std::min(mine.low[1], j),
+                    std::min(mine.low[2], k)};
+        mine.high = {std::max(mine.high[0], static_cast<int>(last - row)), std::max(mine.high[1], j),
+                     std::max(mine.high[2], k)};
+      }
+    }
+#pragma omp critical(cbc3d_smooth_bounds)
+    for (std::size_t a = 0; a < 3; ++a) {
+      box.low[a] = std::min(box.low[a], mine.low[a]);
+      box.high[a] = std::max(box.high[a], mine.high[a]);
+    }
+  }
+  return box;
+}
+
+// Evaluates s and marches the cells of one layer at a time.
+class Marcher {
+ public:
+  Marcher(const LabelImage& image, MaterialId material, const VoxelBox& box)
+      : image_(image),
+        material_(material),
+        box_(box),
+        width_(static_cast<std::size_t>(box.high[0] - box.low[0] + 3)),
+        height_(static_cast<std::size_t>(box.high[1] - box.low[1] + 3)),
+        layers_{std::vector<float>(width_ * height_), std::vector<float>(width_ * height_)} {}
+
+  // Cells between the voxel layers k and k + 1. Fields are kept from one layer to the next.
+  void march(int k, std::vector<SmoothTriangle>& found) {
+    for (const int layer : {k, k + 1}) {
+      auto& held = held_[static_cast<std::size_t>(layer & 1)];
+      if (held != layer) {
+        std::fill(field(layer).begin(), field(layer).end(), 0.0F);  // 0: not yet evaluated
+        held = layer;
+      }
+    }
+    for (int j = box_.low[1] - 1; j <= box_.high[1]; ++j) {
+      for (int i = box_.low[0] - 1; i <= box_.high[0]; ++i) {
+        const unsigned mask = mask_of(i, j, k);
+        if (mask != 0 && mask != 255) {
+          march_cell({i, j, k}, mask, found);
+        }
+      }
+    }
+  }
+
+ private:
+  std::vector<float>& field(int layer) { return layers_[static_cast<std::size_t>(layer & 1)]; }
+
+  [[nodiscard]] unsigned mask_of(int i, int j, int k) const {
+    unsigned mask = 0;
+    for (unsigned c = 0; c < 8; ++c) {
+      const bool inside =
+          image_.at_or_background(i + kCorners[c][0], j + kCorners[c][1], k + kCorners[c][2]) == material_;
+      mask |= inside ? 1U << c : 0U;
+    }
+    return mask;
+  }
+
+  void march_cell(const Index3& at, unsigned mask, std::vector<SmoothTriangle>& found) {
+    std::array<double, 8> value;
+    for (std::size_t c = 0; c < 8; ++c) {
+      value[c] = value_at(at[0] + kCorners[c][0], at[1] + kCorners[c][1], at[2] + kCorners[c][2]);
+    }
+    const auto* edge = vtkMarchingCubesTriangleCases::GetCases()[mask].edges;
+    for (; *edge >= 0; edge += 3) {
+      std::array<Vec3, 3> p;
+      std::array<MaterialId, 3> other{};
+      std::array<std::uint64_t, 3> number{};
+      for (std::size_t n = 0; n < 3; ++n) {
+        const auto [from, to] = kEdges[static_cast<std::size_t>(edge[n])];
+        p[n] = crossing(at, from, to, value);
+        number[n] = number_of(at, from, to);
+        other[n] = corner_material(at, value[from] > 0 ? to : from);
+      }
+      const MaterialId most = other[1] == other[2] ? other[1] : other[0];
+      found.push_back({{p[0], p[1], p[2]}, most, number});
+    }
+  }
+
+  // Of the line between two corners: its lower end in the image padded by one voxel, and its axis.
+  [[nodiscard]] std::uint64_t number_of(const Index3& at, std::size_t from, std::size_t to) const {
+    std::uint64_t voxel = 0;
+    for (std::size_t a = 3; a-- > 0;) {
+      voxel = voxel * static_cast<std::uint64_t>(image_.frame.size[a] + 2) +
+              static_cast<std::uint64_t>(at[a] + kCorners[from][a] + 1);
+    }
+    const std::uint64_t axis = kCorners[from][0] != kCorners[to][0]   ? 0
+                               : kCorners[from][1] != kCorners[to][1] ? 1
+                                                                      : 2;
+    return 3 * voxel + axis;
+  }
+
+  [[nodiscard]] MaterialId corner_material(const Index3& at, std::size_t corner) const {
+    const Index3& c = kCorners[corner];
+    return image_.at_or_background(at[0] + c[0], at[1] + c[1], at[2] + c[2]);
+  }
+
+  [[nodiscard]] Vec3 crossing(const Index3& at, std::size_t from, std::size_t to,
+                              const std::array<double, 8>& value) const {
+    const auto centre = [&](std::size_t corner) {
+      const Index3& c = kCorners[corner];
+      return image_.frame.local_centre(at[0] + c[0], at[1] + c[1], at[2] + c[2]);
+    };
+    const Vec3 a = centre(from), b = centre(to);
+    return a + value[from] / (value[from] - value[to]) * (b - a);
+  }
+
+  double value_at(int i, int j, int k) {
+    const auto u = static_cast<std::size_t>(i - box_.low[0] + 1),
+               v = static_cast<std::size_t>(j - box_.low[1] + 1);
+    float& held = field(k)[v * width_ + u];
+    if (held == 0.0F) {
+      held = static_cast<float>(evaluate(i, j, k));
+    }
+    return static_cast<double>(held);
+  }
+
+  double evaluate(int i, int j, int k) {
+    // Smoothed indicators of the few materials in reach.
+    std::array<std::pair<MaterialId, double>, 125> smoothed;
+    std::size_t materials = 0, last = 0;
+    for (int dk = -kReach; dk <= kReach; ++dk) {
+      for (int dj = -kReach; dj <= kReach; ++dj) {
+        const double row = weight(dk) * weight(dj);
+        for (int di = -kReach; di <= kReach; ++di) {
+          const MaterialId m = image_.at_or_background(i + di, j + dj, k + dk);
+          if (materials == 0 || smoothed[last].first != m) {
+            for (last = 0; last < materials && smoothed[last].first != m; ++last) {
+            }
+            if (last == materials) {
+              smoothed[materials++] = {m, 0};
+            }
+          }
+          smoothed[last].second += row * weight(di);
+        }
+      }
+    }
+    double own = 0, largest_other = 0;
+    for (std::size_t n = 0; n < materials; ++n) {
+      double& to = smoothed[n].first == material_ ? own : largest_other;
+      to = std::max(to, smoothed[n].second);
+    }
+    const bool inside = image_.at_or_background(i, j, k) == material_;
+    return inside ? std::max(own - largest_other, kKeptSign) : std::min(own - largest_other, -kKeptSign);
+  }
+
+  static double weight(int offset) {
+    static const auto weights = gaussian();
+    return weights[static_cast<std::size_t>(offset + kReach)];
+  }
+
+  const LabelImage& image_;
+  MaterialId material_;
+  VoxelBox box_;
+  std::size_t width_, height_;
+  std::array<std::vector<float>, 2> layers_;
+  std::array<int, 2> held_{-100, -100};
+};
+
+}  // namespace
+
+std::vector<SmoothTriangle> smooth_surface(const LabelImage& image, MaterialId material) {
+  const VoxelBox box = bounds_of(image, material);
+  if (material == kBackground || box.low[0] > box.high[0]) {
+    return {};
+  }
+  const int first = box.low[2] - 1;
+  std::vector<std::vector<SmoothTriangle>> layers(static_cast<std::size_t>(box.high[2] - first + 1));
+#pragma omp parallel
+  {
+    Marcher marcher(image, material, box);
+#pragma omp for schedule(dynamic, 8)
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      marcher.march(first + static_cast<int>(n), layers[n]);
+    }
+  }
+  std::vector<SmoothTriangle> triangles;
+  for (auto& layer : layers) {
+    triangles.insert(triangles.end(), layer.begin(), layer.end());
+    layer = {};
+  }
+  return triangles;
+}
+
+}  // namespace cbc3d::metrics
