@@ -30,6 +30,16 @@ std::vector<ParameterSpec> parameters() {
       {"on-failure", "preset", "stop|recover", "what happens where elements stay below the minimum quality"},
       {"young-pa", "2100", "Pa", "Young's modulus"},
       {"poisson", "0.45", "", "Poisson's ratio"},
+      {"mixed", "false", kSwitch, "hexes in uniform regions, pyramids between them and the tets"},
+      {"displacement", "normal", "normal|full", "of a source: along the surface's normal, or the full mean"},
+      {"keep-outliers", "false", kSwitch, "let targets pull whose boundary looks the other way"},
+      {"reach", "3", "regions", "how far a source without target in its region looks"},
+      {"pair-distance", "preset", "voxel diagonals",
+       "a farther pair of source and target is pulled so near; 0: off"},
+      {"attempts", "3", "", "with on-failure stop: solves with scaled displacements before it stops"},
+      {"material-young", "none", "LABEL=Pa", "Young's modulus of one label"},
+      {"material-poisson", "none", "LABEL=NU", "Poisson's ratio of one label"},
+      {"min-scaled-jacobian", "0.2", "", "smallest scaled Jacobian of hexes and pyramids that is kept"},
       {"min-dihedral", "5", "deg", "smallest dihedral angle that the deformation keeps"},
   };
 }
@@ -96,12 +106,8 @@ Adapter cbc3d_paper_adapter() {
 }
 
 Adapter cbc3d_mixed_adapter() {
-  Adapter adapter = make("cbc3d-mixed", "CBC3D with the paper's settings and mixed elements",
-                         {"--preset", "paper", "--mixed"});
-  adapter.availability = [](const std::filesystem::path&) {
-    return Availability{false, "mixed elements are not built yet"};
-  };
-  return adapter;
+  return make("cbc3d-mixed", "CBC3D with the paper's settings and mixed elements",
+              {"--preset", "paper", "--mixed"});
 }
 
 }  // namespace cbc3d::baselines

@@ -4,17 +4,19 @@
 #include <new>
 
 #include "mesher/app/clean_command.hpp"
+#include "mesher/app/deform_command.hpp"
 #include "mesher/app/mesh_command.hpp"
 #include "mesher/core/error.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app{"CBC3D: from a segmented multi-label image to a tetrahedral mesh"};
+  CLI::App app{"CBC3D: from a segmented multi-label image to a tetrahedral or mixed mesh"};
   app.require_subcommand(1);
   app.set_version_flag("--version", CBC3D_VERSION);
   int exit_code = cbc3d::kExitSuccess;
   try {
     cbc3d::add_mesh_command(app, exit_code);
     cbc3d::add_clean_command(app, exit_code);
+    cbc3d::add_deform_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

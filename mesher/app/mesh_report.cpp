@@ -12,37 +12,20 @@ nlohmann::json options_json(const RunDescription& run, const MeshImageReport& re
   for (const auto& [label, f] : o.refine.material_fidelity) {
     material[std::to_string(label)] = f;
   }
-  nlohmann::json materials = nlohmann::json::object();
-  for (const auto& [label, e] : o.deform.elasticity.by_label) {
-    materials[std::to_string(label)] = {{"young_pa", e.young_pa}, {"poisson", e.poisson}};
-  }
-  return {{"preset", run.preset},
-          {"relabel_noise", name_of(kNoisyVoxelNames, o.clean.relabel_noise)},
-          {"region_tolerance", o.clean.region_tolerance},
-          {"manifold_voxels", o.clean.manifold_voxels},
-          {"lattice_spacing_mm", report.lattice_spacing_mm},
-          {"topology_checks", o.topology.enabled},
-          {"fidelity", o.refine.fidelity},
-          {"material_fidelity", material},
-          {"max_distance_mm", o.refine.max_distance_mm},
-          {"finest_spacing_mm", report.finest_spacing_mm},
-          {"iterations", o.deform.iterations},
-          {"connectivity", name_of(kConnectivityNames, o.deform.connectivity)},
-          {"target_position", name_of(kTargetPositionNames, o.deform.displacement.target_position)},
-          {"displacement", name_of(kDisplacementNames, o.deform.displacement.along_normal)},
-          {"reject_outliers", o.deform.displacement.reject_outliers},
-          {"reach", o.deform.displacement.reach},
-          {"pair_distance", o.deform.displacement.pair_distance},
-          {"attempts", o.deform.attempts},
-          {"on_failure", name_of(kOnFailureNames, o.deform.on_failure)},
-          {"young_pa", o.deform.elasticity.all.young_pa},
-          {"poisson", o.deform.elasticity.all.poisson},
-          {"material_elasticity", materials},
-          {"min_scaled_jacobian", o.deform.quality.min_scaled_jacobian},
-          {"mixed", o.mixed},
-          {"min_dihedral_deg", o.deform.quality.min_dihedral_deg},
-          {"seed", o.clean.seed},
-          {"threads", run.threads}};
+  nlohmann::json options = {{"preset", run.preset},
+                            {"relabel_noise", name_of(kNoisyVoxelNames, o.clean.relabel_noise)},
+                            {"region_tolerance", o.clean.region_tolerance},
+                            {"manifold_voxels", o.clean.manifold_voxels},
+                            {"lattice_spacing_mm", report.lattice_spacing_mm},
+                            {"topology_checks", o.topology.enabled},
+                            {"fidelity", o.refine.fidelity},
+                            {"material_fidelity", material},
+                            {"max_distance_mm", o.refine.max_distance_mm},
+                            {"finest_spacing_mm", report.finest_spacing_mm},
+                            {"seed", o.clean.seed},
+                            {"threads", run.threads}};
+  options.update(deformation_options_json(o));
+  return options;
 }
 
 nlohmann::json fidelity_json(const MeshImageReport& report) {
@@ -87,6 +70,29 @@ nlohmann::json mix_json(const MixReport& mix) {
           {"tets_merged", mix.tets_merged},
           {"vertices_before", mix.vertices_before},
           {"vertices_after", mix.vertices_after}};
+}
+
+nlohmann::json deformation_options_json(const MeshImageOptions& options) {
+  const DeformOptions& o = options.deform;
+  nlohmann::json materials = nlohmann::json::object();
+  for (const auto& [label, e] : o.elasticity.by_label) {
+    materials[std::to_string(label)] = {{"young_pa", e.young_pa}, {"poisson", e.poisson}};
+  }
+  return {{"mixed", options.mixed},
+          {"iterations", o.iterations},
+          {"connectivity", name_of(kConnectivityNames, o.connectivity)},
+          {"target_position", name_of(kTargetPositionNames, o.displacement.target_position)},
+          {"displacement", name_of(kDisplacementNames, o.displacement.along_normal)},
+          {"reject_outliers", o.displacement.reject_outliers},
+          {"reach", o.displacement.reach},
+          {"pair_distance", o.displacement.pair_distance},
+          {"on_failure", name_of(kOnFailureNames, o.on_failure)},
+          {"attempts", o.attempts},
+          {"young_pa", o.elasticity.all.young_pa},
+          {"poisson", o.elasticity.all.poisson},
+          {"material_elasticity", materials},
+          {"min_dihedral_deg", o.quality.min_dihedral_deg},
+          {"min_scaled_jacobian", o.quality.min_scaled_jacobian}};
 }
 
 std::string counts_text(const Mesh& mesh) {

@@ -18,6 +18,9 @@ struct RunDescription {
 /// What a cleaning changed: counts, and per label the voxels before and after and the change of volume.
 nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame);
 
+/// Options of the mixed elements and the deformation.
+nlohmann::json deformation_options_json(const MeshImageOptions& options);
+
 /// Points, parts' seconds and per-iteration figures of a deformation.
 nlohmann::json deformation_json(const DeformReport& deform);
 
