@@ -20,6 +20,13 @@ struct Phantom {
   std::uint64_t seed = 0;
 };
 
+/// What is done to the image before any mesher sees it.
+struct Derivation {
+  bool fill_holes = false;  ///< see derive.hpp
+
+  [[nodiscard]] bool any() const { return fill_holes; }
+};
+
 struct Case {
   std::string name, title;
   std::vector<std::string> suites;
@@ -27,6 +34,7 @@ struct Case {
   std::string image_sha256;               ///< of that file, lower-case hexadecimal
   std::string image_source;               ///< where to get it, and its licence
   std::optional<Phantom> phantom;         ///< absent for a file
+  Derivation derive;
   std::map<std::string, std::map<std::string, std::string>> parameters;  ///< mesher name -> option -> value
   nlohmann::json paper = nlohmann::json::object();  ///< the paper's figures for this image, where it has any
 };

@@ -109,6 +109,15 @@ void read_image(const Section& image, Case& result) {
   result.image_source = image.text("source");
 }
 
+Derivation read_derivation(const Section& derive) {
+  derive.require_known_keys({"fill_holes"});
+  const json& fill_holes = derive.at("fill_holes");
+  if (!fill_holes.is_boolean()) {
+    derive.fail("fill_holes", "is " + fill_holes.dump() + ", neither true nor false");
+  }
+  return {fill_holes.get<bool>()};
+}
+
 void read_parameters(const Section& parameters, Case& result) {
   for (const auto& [mesher, unused] : parameters.object.items()) {
     const Section options = parameters.section(mesher);
@@ -137,7 +146,7 @@ json parse_file(const fs::path& file) {
 Case read_case(const fs::path& file) {
   const json parsed = parse_file(file);
   const Section top{parsed, file, ""};
-  top.require_known_keys({"name", "title", "suites", "image", "parameters", "paper"});
+  top.require_known_keys({"name", "title", "suites", "image", "derive", "parameters", "paper"});
   Case result;
   result.name = top.text("name");
   result.title = top.text("title");
@@ -148,6 +157,9 @@ Case read_case(const fs::path& file) {
   }
   result.suites = suites.get<std::vector<std::string>>();
   read_image(top.section("image"), result);
+  if (parsed.contains("derive")) {
+    result.derive = read_derivation(top.section("derive"));
+  }
   if (parsed.contains("parameters")) {
     read_parameters(top.section("parameters"), result);
   }

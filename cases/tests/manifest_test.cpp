@@ -16,6 +16,7 @@ json good_manifest() {
           {"title", "One"},
           {"suites", {"demo"}},
           {"image", {{"file", "one.nrrd"}, {"sha256", std::string(64, 'a')}, {"source", "somewhere (MIT)"}}},
+          {"derive", {{"fill_holes", true}}},
           {"parameters", {{"cgal", {{"cell-size", 2.5}, {"mode", "x"}}}}},
           {"paper", {{"note", "none"}}}};
 }
@@ -54,6 +55,7 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[1].image_file, "one.nrrd");
   EXPECT_EQ(cases[1].image_sha256, std::string(64, 'a'));
   EXPECT_EQ(cases[1].image_source, "somewhere (MIT)");
+  EXPECT_TRUE(cases[1].derive.fill_holes);
   EXPECT_FALSE(cases[1].phantom);
   EXPECT_EQ(cases[1].parameters.at("cgal").at("cell-size"), "2.5");
   EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
@@ -92,7 +94,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadKey{"/image/file", "/etc/one.nrrd", "\"image.file\""},
                     BadKey{"/parameters/cgal", 3, "\"parameters.cgal\""},
                     BadKey{"/parameters/cgal/cell-size", {1, 2}, "\"parameters.cgal.cell-size\""},
-                    BadKey{"/paper", {1, 2}, "\"paper\""},
+                    BadKey{"/paper", {1, 2}, "\"paper\""}, BadKey{"/derive", true, "\"derive\""},
+                    BadKey{"/derive/fill_holes", 1, "\"derive.fill_holes\""},
+                    BadKey{"/derive", {{"dilate", true}}, "\"derive.dilate\""},
                     BadKey{"/image/phantom/name", "ghost", "organs, shells"},
                     BadKey{"/image/phantom/size", {16, 17}, "\"image.phantom.size\""},
                     BadKey{"/image/phantom/size", {16, 17, 1.5}, "\"image.phantom.size\""},
