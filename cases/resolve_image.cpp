@@ -71,7 +71,13 @@ ResolvedImage generate(const Phantom& phantom, const fs::path& cache_dir) {
     return {path, ""};
   }
   create_cache(cache_dir);
-  write_label_image(make_phantom(phantom), path);
+  const std::string sha256 = write_phantom(phantom, path);
+  if (!phantom.sha256.empty() && sha256 != phantom.sha256) {
+    fs::remove(path, error);
+    throw JobError("phantom '" + phantom.name +
+                   "' came out with other voxels than its case's: their sha256 is " + sha256 + ", expected " +
+                   phantom.sha256 + "; report this machine and compiler");
+  }
   return {path, ""};
 }
 
