@@ -213,4 +213,21 @@ std::vector<Case> load_cases(const fs::path& manifest_dir) {
   return cases;
 }
 
+void use_parameter_set(Case& which, const std::string& set) {
+  const auto found = which.parameter_sets.find(set);
+  if (found == which.parameter_sets.end()) {
+    std::string known;
+    for (const auto& [name, unused] : which.parameter_sets) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    throw InputError("case '" + which.name + "' has no parameter set '" + set + "'; it has " +
+                     (known.empty() ? "none" : known));
+  }
+  for (const auto& [mesher, options] : found->second) {
+    for (const auto& [key, value] : options) {
+      which.parameters[mesher][key] = value;
+    }
+  }
+}
+
 }  // namespace cbc3d::cases

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -12,6 +13,10 @@ namespace cbc3d::cases {
 /// the folder is absent or holds no manifest, a manifest is no JSON, a key is missing, unknown or of the
 /// wrong kind, a phantom is unknown or impossible, or two manifests have the same name.
 std::vector<Case> load_cases(const std::filesystem::path& manifest_dir);
+
+/// Lays a case's parameter set over its parameters. Throws InputError naming the sets there are when the case
+/// has none of that name.
+void use_parameter_set(Case& which, const std::string& set);
 
 struct ResolvedImage {
   std::filesystem::path path;  ///< empty when skipped

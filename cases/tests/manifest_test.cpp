@@ -121,6 +121,24 @@ TEST(Manifest, MissingKeysAreNamed) {
   EXPECT_NE(error_of("{ no json").find("not a JSON object"), std::string::npos);
 }
 
+TEST(Manifest, ParameterSetIsLaidOver) {
+  Case one;
+  one.name = "one";
+  one.parameters = {{"cgal", {{"cell-size", "2"}, {"facet-size", "3"}}}, {"cbc3d", {{"fidelity", "1"}}}};
+  one.parameter_sets = {{"fine", {{"cgal", {{"cell-size", "1"}}}, {"tetgen", {{"max-volume", "4"}}}}}};
+  use_parameter_set(one, "fine");
+  EXPECT_EQ(one.parameters.at("cgal").at("cell-size"), "1");
+  EXPECT_EQ(one.parameters.at("cgal").at("facet-size"), "3");
+  EXPECT_EQ(one.parameters.at("cbc3d").at("fidelity"), "1");
+  EXPECT_EQ(one.parameters.at("tetgen").at("max-volume"), "4");
+  try {
+    use_parameter_set(one, "coarse");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "case 'one' has no parameter set 'coarse'; it has fine");
+  }
+}
+
 TEST(Manifest, FolderAndNamesAreChecked) {
   const test::Folder folder("manifest");
   EXPECT_THROW(load_cases(folder.path() / "absent"), InputError);
