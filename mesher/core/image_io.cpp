@@ -70,6 +70,20 @@ void require_scalar_volume(const itk::ImageIOBase& io, const fs::path& path) {
   }
 }
 
+/// A few bytes whose header promises gigabytes: found before any memory is asked for. Deflate packs at most
+/// 1032 to 1; files whose voxels lie elsewhere (detached headers) are not judged.
+void require_plausible_size(const itk::ImageIOBase& io, const fs::path& path) {
+  constexpr std::uintmax_t kMostPacked = 1100, kHarmlessBytes = 64U << 20U;
+  const std::string extension = path.extension().string();
+  const bool attached =
+      extension == ".nrrd" || extension == ".nii" || extension == ".gz" || extension == ".mha";
+  const std::uintmax_t promised = io.GetImageSizeInBytes();
+  if (attached && promised > kHarmlessBytes && promised / kMostPacked > fs::file_size(path)) {
+    fail(path, "its header promises " + std::to_string(promised) + " bytes of voxels, but the file has " +
+                   std::to_string(fs::file_size(path)) + "; it is truncated, copy it again");
+  }
+}
+
 ImageFrame frame_of(const itk::ImageIOBase& io, const fs::path& path) {
   ImageFrame frame;
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -241,6 +255,7 @@ void classify_component(Component component, const void* bytes, LabelImage& imag
 LabelImage read_with_itk(const fs::path& path) {
   const auto io = open_header(path);
   require_scalar_volume(*io, path);
+  require_plausible_size(*io, path);
   LabelImage image;
   image.frame = frame_of(*io, path);
   orthonormalise(image.frame, path);
