@@ -15,6 +15,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/inrimage.hpp"
+#include "mesher/core/mapped_voxels.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -259,6 +260,10 @@ LabelImage read_with_itk(const fs::path& path) {
   LabelImage image;
   image.frame = frame_of(*io, path);
   orthonormalise(image.frame, path);
+  if (const auto mapped = map_raw_nrrd(path, io->GetImageSizeInBytes(), io->GetComponentSize())) {
+    classify_component(io->GetComponentType(), mapped->data(), image, path);
+    return image;
+  }
   itk::ImageIORegion region(io->GetNumberOfDimensions());
   for (unsigned axis = 0; axis < io->GetNumberOfDimensions(); ++axis) {
     region.SetSize(axis, io->GetDimensions(axis));
