@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -71,13 +72,24 @@ void require_scalar_volume(const itk::ImageIOBase& io, const fs::path& path) {
   }
 }
 
+/// True when an NRRD header says that the voxels lie in another file.
+bool names_other_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  for (std::string line; std::getline(in, line) && !line.empty();) {
+    if (line.starts_with("data file:") || line.starts_with("datafile:")) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// A few bytes whose header promises gigabytes: found before any memory is asked for. Deflate packs at most
 /// 1032 to 1; files whose voxels lie elsewhere (detached headers) are not judged.
 void require_plausible_size(const itk::ImageIOBase& io, const fs::path& path) {
   constexpr std::uintmax_t kMostPacked = 1100, kHarmlessBytes = 64U << 20U;
   const std::string extension = path.extension().string();
-  const bool attached =
-      extension == ".nrrd" || extension == ".nii" || extension == ".gz" || extension == ".mha";
+  const bool attached = extension == ".nii" || extension == ".gz" || extension == ".mha" ||
+                        (extension == ".nrrd" && !names_other_file(path));
   const std::uintmax_t promised = io.GetImageSizeInBytes();
   if (attached && promised > kHarmlessBytes && promised / kMostPacked > fs::file_size(path)) {
     fail(path, "its header promises " + std::to_string(promised) + " bytes of voxels, but the file has " +

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
@@ -43,8 +44,8 @@ ImageFrame frame_of_44x44x60_mm(const Vec3& spacing_mm) {
 
 /// Grey values (100 around, 100 + contrast within, blurred over a voxel, normal noise) written as an image,
 /// and the truth.
-LabelImage write_grey(const fs::path& path, const ImageFrame& frame, const std::vector<Vessel>& vessels,
-                      double contrast, double noise) {
+LabelImage write_grey(const fs::path& path, const ImageFrame& frame,
+                      const std::function<double(const Vec3&)>& distance_at, double contrast, double noise) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, noise);
   LabelImage grey, truth;
@@ -56,10 +57,7 @@ LabelImage write_grey(const fs::path& path, const ImageFrame& frame, const std::
   const double blur = 0.4 * frame.spacing_mm.max_coeff();
   for (std::size_t v = 0; v < frame.voxel_count(); ++v) {
     const Index3 at = frame.index_of(v);
-    double distance = 1e9;
-    for (const Vessel& vessel : vessels) {
-      distance = std::min(distance, vessel.distance(frame.local_centre(at[0], at[1], at[2])));
-    }
+    const double distance = distance_at(frame.local_centre(at[0], at[1], at[2]));
     const double within = 1 / (1 + std::exp(distance / blur));
     const double value = 300 + contrast * within + normal(random);
     grey.voxels.push_back(static_cast<MaterialId>(std::clamp(value, 1.0, 999.0)));
@@ -88,7 +86,8 @@ class Segment : public ::testing::Test {
 
   double dice_of(const ImageFrame& frame, double contrast, double noise, double radius) {
     const Vessel vessel{22, 22, radius};
-    const LabelImage truth = write_grey(folder_ / "grey.nrrd", frame, {vessel}, contrast, noise);
+    const LabelImage truth = write_grey(
+        folder_ / "grey.nrrd", frame, [&](const Vec3& p) { return vessel.distance(p); }, contrast, noise);
     SegmentOptions options;
     options.seeds_mm = {frame.to_physical(vessel.middle(8))};
     options.targets_mm = {frame.to_physical(vessel.middle(52))};
@@ -121,9 +120,27 @@ TEST_F(Segment, WeakNoiseThinVessel) {
   EXPECT_GE(dice_of(frame_of_44x44x60_mm({1, 1, 1}), 200, 10, 3.5), .93);
 }
 
+// The paper's way with an aneurysm: one seed in its middle, one target on its wall.
+TEST_F(Segment, RoundSacFromItsMiddleAndItsWall) {
+  const Vec3 middle{22, 23, 30};
+  const LabelImage truth = write_grey(
+      folder_ / "sac.nrrd", frame_of_44x44x60_mm({1, 1, 1}),
+      [&](const Vec3& p) { return (p - middle).norm() - 13; }, 200, 30);
+  SegmentOptions options;
+  options.seeds_mm = {middle};
+  options.targets_mm = {middle + Vec3{0, 13, 0}};
+  Progress quiet(true);
+  EXPECT_GE(dice(segment_image(folder_ / "sac.nrrd", options, quiet, report_), truth), .95);
+}
+
 TEST_F(Segment, RefusesWhatCannotWork) {
   const ImageFrame frame = frame_of_44x44x60_mm({2, 2, 2});
-  write_grey(folder_ / "grey.nrrd", frame, {{22, 22, 5}}, 200, 10);
+  write_grey(
+      folder_ / "grey.nrrd", frame,
+      [](const Vec3& p) {
+        return Vessel{22, 22, 5}.distance(p);
+      },
+      200, 10);
   Progress quiet(true);
   SegmentOptions options;
   options.targets_mm = {{22, 22, 30}};
@@ -132,14 +149,17 @@ TEST_F(Segment, RefusesWhatCannotWork) {
   EXPECT_THROW(segment_image(folder_ / "grey.nrrd", options, quiet, report_), InputError);
   options.seeds_mm = {{22, 22, 20}};
   EXPECT_THROW(segment_image(folder_ / "absent.nrrd", options, quiet, report_), InputError);
-  write_grey(folder_ / "flat.nrrd", frame, {}, 0, 0);
+  write_grey(
+      folder_ / "flat.nrrd", frame, [](const Vec3&) { return 1e9; }, 0, 0);
   EXPECT_THROW(segment_image(folder_ / "flat.nrrd", options, quiet, report_), InputError);
 }
 
 TEST_F(Segment, CommandMergesStructures) {
   const ImageFrame frame = frame_of_44x44x60_mm({1, 1, 1});
   const Vessel left{12, 22, 4}, right{32, 22, 4};
-  write_grey(folder_ / "grey.nii.gz", frame, {left, right}, 200, 20);
+  write_grey(
+      folder_ / "grey.nii.gz", frame,
+      [&](const Vec3& p) { return std::min(left.distance(p), right.distance(p)); }, 200, 20);
   const auto text = [](const Vec3& p) {
     return " " + std::to_string(p.x) + "," + std::to_string(p.y) + "," + std::to_string(p.z);
   };
