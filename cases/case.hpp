@@ -18,7 +18,18 @@ struct Phantom {
   Index3 size{0, 0, 0};  ///< voxels along each axis
   Vec3 spacing_mm{1, 1, 1};
   std::uint64_t seed = 0;
+  std::string sha256;  ///< of the labels, one byte a voxel, i fastest; empty: not checked
 };
+
+/// What is done to the image before any mesher sees it.
+struct Derivation {
+  bool fill_holes = false;  ///< see derive.hpp
+
+  [[nodiscard]] bool any() const { return fill_holes; }
+};
+
+/// Mesher name -> option -> value.
+using MesherParameters = std::map<std::string, std::map<std::string, std::string>>;
 
 struct Case {
   std::string name, title;
@@ -27,7 +38,10 @@ struct Case {
   std::string image_sha256;               ///< of that file, lower-case hexadecimal
   std::string image_source;               ///< where to get it, and its licence
   std::optional<Phantom> phantom;         ///< absent for a file
-  std::map<std::string, std::map<std::string, std::string>> parameters;  ///< mesher name -> option -> value
+  Derivation derive;
+  MesherParameters parameters;
+  /// By the set's name: laid over `parameters` when a run asks for the set.
+  std::map<std::string, MesherParameters> parameter_sets;
   nlohmann::json paper = nlohmann::json::object();  ///< the paper's figures for this image, where it has any
 };
 

@@ -72,8 +72,16 @@ std::array<Number, 3> three_numbers(const Section& section, std::string_view key
   return result;
 }
 
+std::string read_sha256(const Section& section) {
+  std::string digest = section.text("sha256");
+  if (digest.size() != 64 || digest.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    section.fail("sha256", "is not 64 lower-case hexadecimal digits");
+  }
+  return digest;
+}
+
 Phantom read_phantom(const Section& section) {
-  section.require_known_keys({"name", "size", "spacing_mm", "seed"});
+  section.require_known_keys({"name", "size", "spacing_mm", "seed", "sha256"});
   Phantom phantom;
   phantom.name = section.text("name");
   if (find_phantom(phantom.name) == nullptr) {
@@ -87,6 +95,9 @@ Phantom read_phantom(const Section& section) {
     section.fail("seed", "is " + seed.dump() + ", not a whole number from 0 on");
   }
   phantom.seed = seed.get<std::uint64_t>();
+  if (section.object.contains("sha256")) {
+    phantom.sha256 = read_sha256(section);
+  }
   return phantom;
 }
 
@@ -101,18 +112,24 @@ void read_image(const Section& image, Case& result) {
   if (fs::path(*result.image_file).is_absolute()) {
     image.fail("file", "is an absolute path, not a name within a data folder");
   }
-  result.image_sha256 = image.text("sha256");
-  const bool hexadecimal = result.image_sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (result.image_sha256.size() != 64 || !hexadecimal) {
-    image.fail("sha256", "is not 64 lower-case hexadecimal digits");
-  }
+  result.image_sha256 = read_sha256(image);
   result.image_source = image.text("source");
 }
 
-void read_parameters(const Section& parameters, Case& result) {
+Derivation read_derivation(const Section& derive) {
+  derive.require_known_keys({"fill_holes"});
+  const json& fill_holes = derive.at("fill_holes");
+  if (!fill_holes.is_boolean()) {
+    derive.fail("fill_holes", "is " + fill_holes.dump() + ", neither true nor false");
+  }
+  return {fill_holes.get<bool>()};
+}
+
+MesherParameters read_parameters(const Section& parameters) {
+  MesherParameters result;
   for (const auto& [mesher, unused] : parameters.object.items()) {
     const Section options = parameters.section(mesher);
-    auto& into = result.parameters[mesher];
+    auto& into = result[mesher];
     for (const auto& [key, value] : options.object.items()) {
       if (!value.is_string() && !value.is_number()) {
         options.fail(key, "is " + value.dump() + ", neither a text nor a number");
@@ -120,6 +137,7 @@ void read_parameters(const Section& parameters, Case& result) {
       into[key] = value.is_string() ? value.get<std::string>() : value.dump();
     }
   }
+  return result;
 }
 
 json parse_file(const fs::path& file) {
@@ -137,7 +155,8 @@ json parse_file(const fs::path& file) {
 Case read_case(const fs::path& file) {
   const json parsed = parse_file(file);
   const Section top{parsed, file, ""};
-  top.require_known_keys({"name", "title", "suites", "image", "parameters", "paper"});
+  top.require_known_keys(
+      {"name", "title", "suites", "image", "derive", "parameters", "parameter_sets", "paper"});
   Case result;
   result.name = top.text("name");
   result.title = top.text("title");
@@ -148,8 +167,17 @@ Case read_case(const fs::path& file) {
   }
   result.suites = suites.get<std::vector<std::string>>();
   read_image(top.section("image"), result);
+  if (parsed.contains("derive")) {
+    result.derive = read_derivation(top.section("derive"));
+  }
   if (parsed.contains("parameters")) {
-    read_parameters(top.section("parameters"), result);
+    result.parameters = read_parameters(top.section("parameters"));
+  }
+  if (parsed.contains("parameter_sets")) {
+    const Section sets = top.section("parameter_sets");
+    for (const auto& [set, unused] : sets.object.items()) {
+      result.parameter_sets[set] = read_parameters(sets.section(set));
+    }
   }
   if (parsed.contains("paper")) {
     result.paper = top.section("paper").object;
@@ -183,6 +211,23 @@ std::vector<Case> load_cases(const fs::path& manifest_dir) {
     }
   }
   return cases;
+}
+
+void use_parameter_set(Case& which, const std::string& set) {
+  const auto found = which.parameter_sets.find(set);
+  if (found == which.parameter_sets.end()) {
+    std::string known;
+    for (const auto& [name, unused] : which.parameter_sets) {
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    throw InputError("case '" + which.name + "' has no parameter set '" + set + "'; it has " +
+                     (known.empty() ? "none" : known));
+  }
+  for (const auto& [mesher, options] : found->second) {
+    for (const auto& [key, value] : options) {
+      which.parameters[mesher][key] = value;
+    }
+  }
 }
 
 }  // namespace cbc3d::cases

@@ -1,5 +1,6 @@
 #include <sstream>
 
+#include "cases/derive.hpp"
 #include "cases/manifest.hpp"
 #include "cases/phantoms/registry.hpp"
 #include "cases/sha256.hpp"
@@ -51,6 +52,14 @@ fs::path cached_name(const Phantom& phantom, const PhantomKind& kind) {
   return name.str();
 }
 
+void create_cache(const fs::path& cache_dir) {
+  std::error_code error;
+  fs::create_directories(cache_dir, error);
+  if (error) {
+    throw JobError("cannot create the folder '" + cache_dir.string() + "': " + error.message());
+  }
+}
+
 ResolvedImage generate(const Phantom& phantom, const fs::path& cache_dir) {
   const PhantomKind* kind = find_phantom(phantom.name);
   if (kind == nullptr) {
@@ -61,11 +70,29 @@ ResolvedImage generate(const Phantom& phantom, const fs::path& cache_dir) {
   if (fs::is_regular_file(path, error)) {
     return {path, ""};
   }
-  fs::create_directories(cache_dir, error);
-  if (error) {
-    throw JobError("cannot create the folder '" + cache_dir.string() + "': " + error.message());
+  create_cache(cache_dir);
+  const std::string sha256 = write_phantom(phantom, path);
+  if (!phantom.sha256.empty() && sha256 != phantom.sha256) {
+    fs::remove(path, error);
+    throw JobError("phantom '" + phantom.name +
+                   "' came out with other voxels than its case's: their sha256 is " + sha256 + ", expected " +
+                   phantom.sha256 + "; report this machine and compiler");
   }
-  write_label_image(make_phantom(phantom), path);
+  return {path, ""};
+}
+
+/// The digest of a file's content, or the name of a phantom, tells what a derived image was made from.
+ResolvedImage derive(const Case& which, const ResolvedImage& source, const fs::path& cache_dir) {
+  const std::string origin = which.phantom ? source.path.stem().string() : which.image_sha256;
+  const fs::path path = cache_dir / (origin + "-holes-filled.nrrd");
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) {
+    return {path, ""};
+  }
+  create_cache(cache_dir);
+  LabelImage image = read_label_image(source.path);
+  fill_holes(image);
+  write_label_image(image, path);
   return {path, ""};
 }
 
@@ -73,7 +100,9 @@ ResolvedImage generate(const Phantom& phantom, const fs::path& cache_dir) {
 
 ResolvedImage resolve_image(const Case& which, const std::vector<fs::path>& data_dirs,
                             const fs::path& cache_dir) {
-  return which.phantom ? generate(*which.phantom, cache_dir) : find_file(which, data_dirs);
+  ResolvedImage source = which.phantom ? generate(*which.phantom, cache_dir) : find_file(which, data_dirs);
+  const bool as_it_is = !which.derive.any() || !source.skipped_reason.empty();
+  return as_it_is ? source : derive(which, source, cache_dir);
 }
 
 }  // namespace cbc3d::cases

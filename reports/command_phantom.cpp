@@ -3,7 +3,6 @@
 
 #include "cases/phantoms/registry.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "reports/commands.hpp"
 
@@ -24,7 +23,7 @@ int write_phantom(const PhantomOptions& options) {
   if (kind == nullptr) {
     throw InputError("phantom '" + options.name + "' is unknown; there are " + cases::phantom_names());
   }
-  cases::Phantom phantom{options.name, kind->size, kind->spacing_mm, options.seed};
+  cases::Phantom phantom{options.name, kind->size, kind->spacing_mm, options.seed, ""};
   if (!options.size.empty()) {
     phantom.size = {options.size[0], options.size[1], options.size[2]};
   }
@@ -32,11 +31,10 @@ int write_phantom(const PhantomOptions& options) {
     phantom.spacing_mm = {options.spacing_mm[0], options.spacing_mm[1], options.spacing_mm[2]};
   }
   set_thread_count(options.threads);
-  const LabelImage image = cases::make_phantom(phantom);
-  write_label_image(image, options.out);
+  const std::string sha256 = cases::write_phantom(phantom, options.out);
   if (!options.quiet) {
     std::cout << "wrote " << options.out << ": " << phantom.size[0] << " x " << phantom.size[1] << " x "
-              << phantom.size[2] << " voxels, " << image.material_count() - 1 << " labels\n";
+              << phantom.size[2] << " voxels; their labels' sha256 is " << sha256 << '\n';
   }
   return kExitSuccess;
 }

@@ -15,7 +15,7 @@ namespace {
 
 struct RunCommandOptions {
   std::vector<std::string> suites, cases, meshers, data, settings;
-  std::string out;
+  std::string out, parameter_set;
   RunOptions run;
   double memory_limit_gib = 16;
   OutputOptions output;
@@ -99,6 +99,11 @@ int run(RunCommandOptions options) {
   const auto cache_dir = options.run.out_dir / "images";
   Bench bench;
   bench.cases = chosen_cases(options, all_cases);
+  if (!options.parameter_set.empty()) {
+    for (cases::Case& subject : bench.cases) {
+      cases::use_parameter_set(subject, options.parameter_set);
+    }
+  }
   bench.meshers = chosen_meshers(options.meshers);
   bench.bin_dir = bin_dir();
   bench.evaluate_command = {executable_file(), "evaluate"};
@@ -128,6 +133,8 @@ void add_choice_options(CLI::App* parser, RunCommandOptions& options) {
           "folder with case images (may be given again); then those in CBC3D_DATA, then ../data beside the "
           "programs")
       ->allow_extra_args(false);
+  parser->add_option("--parameter-set", options.parameter_set,
+                     "a named set of the cases' manifests (equal_count, say), laid over their parameters");
   parser
       ->add_option("--set", options.settings,
                    "MESHER.KEY=VALUE: a parameter of a mesher (may be given again)")

@@ -4,12 +4,14 @@
 #include <array>
 
 #include "cases/phantoms/generators.hpp"
+#include "cases/phantoms/models.hpp"
+#include "cases/phantoms/shapes.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::cases {
 namespace {
 
-constexpr std::array<PhantomKind, 4> kKinds{{
+constexpr std::array<PhantomKind, 8> kKinds{{
     {"organs",
      "body (1) with an organ (2), a ring-shaped vessel (3) around and into it, and a lesion (4) in it",
      {96, 96, 64},
@@ -29,6 +31,34 @@ constexpr std::array<PhantomKind, 4> kKinds{{
      {1, 1, 1},
      1,
      noisy_vessels_phantom},
+    {"aneurysm",
+     "carotid artery with its branches and a saccular aneurysm (1)",
+     {512, 512, 508},
+     {1, 1, 1},
+     1,
+     nullptr,
+     aneurysm_model},
+    {"brain-tumor",
+     "folded brain (1), ventricles (2), irregular tumour that touches both (3)",
+     {384, 512, 176},
+     {.48, .48, 1},
+     1,
+     nullptr,
+     brain_tumor_model},
+    {"brain-avm",
+     "folded brain (1), feeding artery (2), draining vein (3), nidus of tangled vessels (4)",
+     {320, 320, 100},
+     {.7, .7, 1.6},
+     1,
+     nullptr,
+     brain_avm_model},
+    {"lumen-stent",
+     "lumen of a sidewall aneurysm (1), braided wires of a flow diverter (2)",
+     {1001, 1001, 4182},
+     {.012, .012, .024},
+     1,
+     nullptr,
+     lumen_stent_model},
 }};
 
 }  // namespace
@@ -51,7 +81,7 @@ std::string phantom_names() {
   return names;
 }
 
-LabelImage make_phantom(const Phantom& phantom) {
+const PhantomKind& require_kind(const Phantom& phantom) {
   constexpr int kSmallest = 8;
   const PhantomKind* kind = find_phantom(phantom.name);
   if (kind == nullptr) {
@@ -65,7 +95,30 @@ LabelImage make_phantom(const Phantom& phantom) {
   if (!phantom.spacing_mm.all_finite() || !(phantom.spacing_mm.min_coeff() > 0)) {
     throw InputError("phantom spacing must be positive along every axis");
   }
-  return kind->generate(phantom.size, phantom.spacing_mm, phantom.seed);
+  return *kind;
+}
+
+LabelImage make_phantom(const Phantom& phantom) {
+  const PhantomKind& kind = require_kind(phantom);
+  if (kind.model == nullptr) {
+    return kind.generate(phantom.size, phantom.spacing_mm, phantom.seed);
+  }
+  const PhantomModel model = kind.model(phantom.size, phantom.spacing_mm, phantom.seed);
+  LabelImage image = blank_image(phantom.size, phantom.spacing_mm, model.label_count);
+  paint_slab(model, image.frame, 0, phantom.size[2], image.voxels.data());
+  return image;
+}
+
+SignedDistance phantom_signed_distance(const Phantom& phantom) {
+  const PhantomKind& kind = require_kind(phantom);
+  if (kind.model == nullptr) {
+    return {};
+  }
+  // Phantoms have their origin at 0 and axes along the patient's: local positions are physical ones.
+  return [model = kind.model(phantom.size, phantom.spacing_mm, phantom.seed)](const Vec3& physical_mm,
+                                                                              Label label) {
+    return signed_distance_mm(model, physical_mm, static_cast<MaterialId>(label));
+  };
 }
 
 }  // namespace cbc3d::cases

@@ -54,7 +54,7 @@ std::size_t cells_with_contact(const LabelImage& image) {
 }
 
 TEST(Cleaning, SpeckledVesselsAtFullSizeEndWithoutContact) {
-  LabelImage image = make_phantom({"vessels-noisy", {512, 512, 508}, {1, 1, 1}, 3});
+  LabelImage image = make_phantom({"vessels-noisy", {512, 512, 508}, {1, 1, 1}, 3, ""});
   ASSERT_GT(cells_with_contact(image), 1000U);
   CleanOptions options;
   options.region_tolerance = 0;

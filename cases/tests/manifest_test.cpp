@@ -16,14 +16,20 @@ json good_manifest() {
           {"title", "One"},
           {"suites", {"demo"}},
           {"image", {{"file", "one.nrrd"}, {"sha256", std::string(64, 'a')}, {"source", "somewhere (MIT)"}}},
+          {"derive", {{"fill_holes", true}}},
           {"parameters", {{"cgal", {{"cell-size", 2.5}, {"mode", "x"}}}}},
+          {"parameter_sets", {{"fine", {{"cgal", {{"cell-size", 1}}}}}}},
           {"paper", {{"note", "none"}}}};
 }
 
 json phantom_manifest() {
   json manifest = good_manifest();
-  manifest["image"] = {
-      {"phantom", {{"name", "organs"}, {"size", {16, 17, 18}}, {"spacing_mm", {1, 1.5, 2}}, {"seed", 3}}}};
+  manifest["image"] = {{"phantom",
+                        {{"name", "organs"},
+                         {"size", {16, 17, 18}},
+                         {"spacing_mm", {1, 1.5, 2}},
+                         {"seed", 3},
+                         {"sha256", std::string(64, 'b')}}}};
   return manifest;
 }
 
@@ -54,9 +60,11 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[1].image_file, "one.nrrd");
   EXPECT_EQ(cases[1].image_sha256, std::string(64, 'a'));
   EXPECT_EQ(cases[1].image_source, "somewhere (MIT)");
+  EXPECT_TRUE(cases[1].derive.fill_holes);
   EXPECT_FALSE(cases[1].phantom);
   EXPECT_EQ(cases[1].parameters.at("cgal").at("cell-size"), "2.5");
   EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
+  EXPECT_EQ(cases[1].parameter_sets.at("fine").at("cgal").at("cell-size"), "1");
   EXPECT_EQ(cases[1].paper.at("note"), "none");
   ASSERT_TRUE(cases[0].phantom);
   EXPECT_FALSE(cases[0].image_file);
@@ -64,6 +72,7 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[0].phantom->size, (Index3{16, 17, 18}));
   EXPECT_EQ(cases[0].phantom->spacing_mm, (Vec3{1, 1.5, 2}));
   EXPECT_EQ(cases[0].phantom->seed, 3U);
+  EXPECT_EQ(cases[0].phantom->sha256, std::string(64, 'b'));
 }
 
 struct BadKey {
@@ -92,11 +101,15 @@ INSTANTIATE_TEST_SUITE_P(
                     BadKey{"/image/file", "/etc/one.nrrd", "\"image.file\""},
                     BadKey{"/parameters/cgal", 3, "\"parameters.cgal\""},
                     BadKey{"/parameters/cgal/cell-size", {1, 2}, "\"parameters.cgal.cell-size\""},
-                    BadKey{"/paper", {1, 2}, "\"paper\""},
+                    BadKey{"/paper", {1, 2}, "\"paper\""}, BadKey{"/derive", true, "\"derive\""},
+                    BadKey{"/derive/fill_holes", 1, "\"derive.fill_holes\""},
+                    BadKey{"/derive", {{"dilate", true}}, "\"derive.dilate\""},
                     BadKey{"/image/phantom/name", "ghost", "organs, shells"},
                     BadKey{"/image/phantom/size", {16, 17}, "\"image.phantom.size\""},
                     BadKey{"/image/phantom/size", {16, 17, 1.5}, "\"image.phantom.size\""},
                     BadKey{"/image/phantom/spacing_mm", {1, 1, 0}, "\"image.phantom.spacing_mm\""},
+                    BadKey{"/parameter_sets/fine/cgal", 3, "\"parameter_sets.fine.cgal\""},
+                    BadKey{"/image/phantom/sha256", "ABC", "\"image.phantom.sha256\""},
                     BadKey{"/image/phantom/seed", -1, "\"image.phantom.seed\""}));
 
 TEST(Manifest, MissingKeysAreNamed) {
@@ -106,6 +119,24 @@ TEST(Manifest, MissingKeysAreNamed) {
     EXPECT_NE(error_of(manifest).find("\"" + std::string(key) + "\" is missing"), std::string::npos);
   }
   EXPECT_NE(error_of("{ no json").find("not a JSON object"), std::string::npos);
+}
+
+TEST(Manifest, ParameterSetIsLaidOver) {
+  Case one;
+  one.name = "one";
+  one.parameters = {{"cgal", {{"cell-size", "2"}, {"facet-size", "3"}}}, {"cbc3d", {{"fidelity", "1"}}}};
+  one.parameter_sets = {{"fine", {{"cgal", {{"cell-size", "1"}}}, {"tetgen", {{"max-volume", "4"}}}}}};
+  use_parameter_set(one, "fine");
+  EXPECT_EQ(one.parameters.at("cgal").at("cell-size"), "1");
+  EXPECT_EQ(one.parameters.at("cgal").at("facet-size"), "3");
+  EXPECT_EQ(one.parameters.at("cbc3d").at("fidelity"), "1");
+  EXPECT_EQ(one.parameters.at("tetgen").at("max-volume"), "4");
+  try {
+    use_parameter_set(one, "coarse");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "case 'one' has no parameter set 'coarse'; it has fine");
+  }
 }
 
 TEST(Manifest, FolderAndNamesAreChecked) {
@@ -126,7 +157,10 @@ TEST(Manifest, OursAreGood) {
     });
   };
   EXPECT_GE(in_suite("demo"), 2);
-  EXPECT_GE(in_suite("real"), 9);
+  EXPECT_GE(in_suite("real"), 11);
+  EXPECT_EQ(in_suite("paper"), 4);
+  EXPECT_EQ(in_suite("paper-half"), 4);
+  EXPECT_EQ(in_suite("paper-quarter"), 4);
   for (const Case& one : cases) {
     EXPECT_EQ(one.parameters.at("cgal").at("facet-angle"), "30") << one.name;
     EXPECT_EQ(one.image_file.has_value(), !one.phantom.has_value()) << one.name;

@@ -106,7 +106,7 @@ class EveryPhantom : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPhantom, DependsOnItsArgumentsAlone) {
   const std::string name = GetParam();
-  const Phantom phantom{name, {40, 36, 30}, {1, 1.25, 1.5}, 77};
+  const Phantom phantom{name, {40, 36, 30}, {1, 1.25, 1.5}, 77, ""};
   set_thread_count(1);
   const LabelImage one = make_phantom(phantom);
   set_thread_count(2);
@@ -135,9 +135,9 @@ std::vector<std::string> all_names() {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryPhantom, testing::ValuesIn(all_names()));
 
 TEST(Phantoms, ImpossibleOnesAreRefused) {
-  EXPECT_THROW(make_phantom({"ghost", {40, 36, 30}, {1, 1, 1}, 0}), InputError);
-  EXPECT_THROW(make_phantom({"organs", {40, 36, 3}, {1, 1, 1}, 0}), InputError);
-  EXPECT_THROW(make_phantom({"organs", {40, 36, 30}, {1, 0, 1}, 0}), InputError);
+  EXPECT_THROW(make_phantom({"ghost", {40, 36, 30}, {1, 1, 1}, 0, ""}), InputError);
+  EXPECT_THROW(make_phantom({"organs", {40, 36, 3}, {1, 1, 1}, 0, ""}), InputError);
+  EXPECT_THROW(make_phantom({"organs", {40, 36, 30}, {1, 0, 1}, 0, ""}), InputError);
 }
 
 }  // namespace

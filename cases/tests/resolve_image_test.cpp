@@ -72,7 +72,7 @@ TEST(ResolveImage, PhantomIsGeneratedOnce) {
   const test::Folder folder("cache");
   const auto cache = folder.path() / "new" / "cache";
   Case one;
-  one.phantom = Phantom{"organs", {24, 20, 16}, {.7, 1, 1.5}, 4};
+  one.phantom = Phantom{"organs", {24, 20, 16}, {.7, 1, 1.5}, 4, ""};
   const auto first = resolve_image(one, {}, cache);
   ASSERT_EQ(first.skipped_reason, "");
   const LabelImage image = read_label_image(first.path);

@@ -6,6 +6,8 @@
 #include "mesher/app/clean_command.hpp"
 #include "mesher/app/deform_command.hpp"
 #include "mesher/app/mesh_command.hpp"
+#include "mesher/app/segment_command.hpp"
+#include "mesher/app/tile_command.hpp"
 #include "mesher/core/error.hpp"
 
 int main(int argc, char** argv) {
@@ -17,6 +19,8 @@ int main(int argc, char** argv) {
     cbc3d::add_mesh_command(app, exit_code);
     cbc3d::add_clean_command(app, exit_code);
     cbc3d::add_deform_command(app, exit_code);
+    cbc3d::add_segment_command(app, exit_code);
+    cbc3d::add_tile_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -15,6 +16,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/inrimage.hpp"
+#include "mesher/core/mapped_voxels.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -67,6 +69,31 @@ void require_scalar_volume(const itk::ImageIOBase& io, const fs::path& path) {
       fail(path, "it is " + std::to_string(dimension) + "-dimensional with " +
                      std::to_string(io.GetDimensions(axis)) + " volumes; give one 3-D volume of it");
     }
+  }
+}
+
+/// True when an NRRD header says that the voxels lie in another file.
+bool names_other_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  for (std::string line; std::getline(in, line) && !line.empty();) {
+    if (line.starts_with("data file:") || line.starts_with("datafile:")) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A few bytes whose header promises gigabytes: found before any memory is asked for. Deflate packs at most
+/// 1032 to 1; files whose voxels lie elsewhere (detached headers) are not judged.
+void require_plausible_size(const itk::ImageIOBase& io, const fs::path& path) {
+  constexpr std::uintmax_t kMostPacked = 1100, kHarmlessBytes = 64U << 20U;
+  const std::string extension = path.extension().string();
+  const bool attached = extension == ".nii" || extension == ".gz" || extension == ".mha" ||
+                        (extension == ".nrrd" && !names_other_file(path));
+  const std::uintmax_t promised = io.GetImageSizeInBytes();
+  if (attached && promised > kHarmlessBytes && promised / kMostPacked > fs::file_size(path)) {
+    fail(path, "its header promises " + std::to_string(promised) + " bytes of voxels, but the file has " +
+                   std::to_string(fs::file_size(path)) + "; it is truncated, copy it again");
   }
 }
 
@@ -241,9 +268,14 @@ void classify_component(Component component, const void* bytes, LabelImage& imag
 LabelImage read_with_itk(const fs::path& path) {
   const auto io = open_header(path);
   require_scalar_volume(*io, path);
+  require_plausible_size(*io, path);
   LabelImage image;
   image.frame = frame_of(*io, path);
   orthonormalise(image.frame, path);
+  if (const auto mapped = map_raw_nrrd(path, io->GetImageSizeInBytes(), io->GetComponentSize())) {
+    classify_component(io->GetComponentType(), mapped->data(), image, path);
+    return image;
+  }
   itk::ImageIORegion region(io->GetNumberOfDimensions());
   for (unsigned axis = 0; axis < io->GetNumberOfDimensions(); ++axis) {
     region.SetSize(axis, io->GetDimensions(axis));

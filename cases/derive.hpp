@@ -1,0 +1,13 @@
+// Images that a case derives from the one it names.
+#pragma once
+
+#include "mesher/core/label_image.hpp"
+
+namespace cbc3d::cases {
+
+/// Gives every enclosed hole (a background region, by face connectivity, that does not touch the image's
+/// border) the label that most of the labelled voxel faces around it have; where several labels have as many,
+/// the smallest of them. Returns the number of voxels filled.
+std::size_t fill_holes(LabelImage& image);
+
+}  // namespace cbc3d::cases

@@ -1,0 +1,227 @@
+#include "mesher/app/tile_command.hpp"
+
+#include <itkBMPImageIO.h>
+#include <itkPNGImageIO.h>
+#include <itkTIFFImageIO.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/core/progress.hpp"
+
+namespace cbc3d {
+namespace {
+
+namespace fs = std::filesystem;
+using Component = itk::ImageIOBase::IOComponentType;
+
+struct TileCommand {
+  std::vector<std::string> slices;
+  std::string out;
+  std::vector<double> spacing_mm, origin_mm{0, 0, 0};
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// One slice: grey values in the file's own type.
+struct Slice {
+  std::size_t width = 0, height = 0;
+  Component component = Component::UCHAR;
+  std::size_t bytes_per_value = 1;
+  std::vector<char> values;
+};
+
+[[noreturn]] void fail(const std::string& file, const std::string& what) {
+  throw InputError("cannot read '" + file + "': " + what);
+}
+
+itk::ImageIOBase::Pointer reader_of(const std::string& file) {
+  if (!fs::is_regular_file(file)) {
+    fail(file, "no such file; check its name");
+  }
+  const std::vector<itk::ImageIOBase::Pointer> formats{itk::PNGImageIO::New().GetPointer(),
+                                                       itk::BMPImageIO::New().GetPointer(),
+                                                       itk::TIFFImageIO::New().GetPointer()};
+  for (const auto& io : formats) {
+    if (io->CanReadFile(file.c_str())) {
+      return io;
+    }
+  }
+  fail(file, "not a PNG, BMP or TIFF image; convert it to one");
+}
+
+/// Colour slices whose channels are all the same are grey ones; others are refused.
+void keep_first_channel(Slice& slice, std::size_t channels, const std::string& file) {
+  const std::size_t count = slice.width * slice.height, bytes = slice.bytes_per_value;
+  const std::size_t colours = std::min<std::size_t>(channels, 3);
+  for (std::size_t pixel = 0; channels > 1 && pixel < count; ++pixel) {
+    const char* from = slice.values.data() + pixel * channels * bytes;
+    for (std::size_t channel = 1; colours == 3 && channel < colours; ++channel) {
+      if (std::memcmp(from, from + channel * bytes, bytes) != 0) {
+        fail(file, "it is a colour image; convert it to grey values first");
+      }
+    }
+    std::memmove(slice.values.data() + pixel * bytes, from, bytes);
+  }
+  slice.values.resize(count * bytes);
+}
+
+Slice read_slice(const std::string& file) {
+  const auto io = reader_of(file);
+  Slice slice;
+  try {
+    io->SetFileName(file);
+    io->ReadImageInformation();
+    for (unsigned axis = 2; axis < io->GetNumberOfDimensions(); ++axis) {
+      if (io->GetDimensions(axis) != 1) {
+        fail(file, "it has " + std::to_string(io->GetDimensions(axis)) + " pages; split it into slices");
+      }
+    }
+    slice.width = io->GetDimensions(0);
+    slice.height = io->GetDimensions(1);
+    slice.component = io->GetComponentType();
+    slice.bytes_per_value = io->GetComponentSize();
+    itk::ImageIORegion region(2);
+    region.SetSize(0, slice.width);
+    region.SetSize(1, slice.height);
+    io->SetIORegion(region);
+    slice.values.resize(io->GetImageSizeInBytes());
+    io->Read(slice.values.data());
+  } catch (const itk::ExceptionObject&) {
+    fail(file, "a broken or truncated image; copy it again");
+  }
+  keep_first_channel(slice, io->GetNumberOfComponents(), file);
+  return slice;
+}
+
+struct TypeNames {
+  Component component;
+  const char *nrrd, *meta;
+};
+
+const TypeNames& names_of(Component component, const std::string& file) {
+  static const std::vector<TypeNames> names{{Component::UCHAR, "unsigned char", "MET_UCHAR"},
+                                            {Component::CHAR, "signed char", "MET_CHAR"},
+                                            {Component::USHORT, "unsigned short", "MET_USHORT"},
+                                            {Component::SHORT, "short", "MET_SHORT"},
+                                            {Component::UINT, "unsigned int", "MET_UINT"},
+                                            {Component::INT, "int", "MET_INT"},
+                                            {Component::FLOAT, "float", "MET_FLOAT"}};
+  const auto found = std::find_if(names.begin(), names.end(),
+                                  [&](const TypeNames& name) { return name.component == component; });
+  if (found == names.end()) {
+    fail(file, "its values are of a type that is not known; convert it to 8 or 16 bits");
+  }
+  return *found;
+}
+
+std::string triple(const std::vector<double>& v, const char* separator) {
+  std::ostringstream text;
+  text.precision(17);
+  text << v[0] << separator << v[1] << separator << v[2];
+  return text.str();
+}
+
+/// Both headers say: uncompressed values follow, first axis fastest, lowest byte first.
+std::string header(const TileCommand& command, const Slice& first) {
+  const TypeNames& names = names_of(first.component, command.slices.front());
+  const std::vector<double>& s = command.spacing_mm;
+  std::ostringstream text;
+  text.precision(17);
+  const std::string sizes = std::to_string(first.width) + " " + std::to_string(first.height) + " " +
+                            std::to_string(command.slices.size());
+  if (fs::path(command.out).extension() == ".nrrd") {
+    text << "NRRD0004\ntype: " << names.nrrd
+         << "\ndimension: 3\nspace: left-posterior-superior\nsizes: " << sizes << "\nspace directions: ("
+         << s[0] << ",0,0) (0," << s[1] << ",0) (0,0," << s[2]
+         << ")\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: ("
+         << triple(command.origin_mm, ",") << ")\n\n";
+  } else {
+    text << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+         << "CompressedData = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = "
+         << triple(command.origin_mm, " ") << "\nElementSpacing = " << triple(s, " ")
+         << "\nDimSize = " << sizes << "\nElementType = " << names.meta << "\nElementDataFile = LOCAL\n";
+  }
+  return text.str();
+}
+
+void require_alike(const Slice& slice, const Slice& first, const std::string& file,
+                   const std::string& first_file) {
+  if (slice.width != first.width || slice.height != first.height || slice.component != first.component) {
+    fail(file, "it has " + std::to_string(slice.width) + " x " + std::to_string(slice.height) +
+                   " pixels of " + std::to_string(8 * slice.bytes_per_value) + " bits, but '" + first_file +
+                   "' has " + std::to_string(first.width) + " x " + std::to_string(first.height) + " of " +
+                   std::to_string(8 * first.bytes_per_value) + "; make them alike");
+  }
+}
+
+void require_good(const TileCommand& command) {
+  const fs::path extension = fs::path(command.out).extension();
+  if (extension != ".nrrd" && extension != ".mha") {
+    throw InputError("--out '" + command.out + "' has an unknown extension; give .nrrd or .mha");
+  }
+  require_writable(command.out);
+  for (const double spacing : command.spacing_mm) {
+    if (!(spacing > 0) || !std::isfinite(spacing)) {
+      throw InputError("--spacing " + triple(command.spacing_mm, ",") + " is not positive; give mm, X,Y,Z");
+    }
+  }
+}
+
+/// Holds one slice at a time.
+void run(const TileCommand& command) {
+  require_good(command);
+  Progress progress(command.quiet);
+  Slice first;
+  AtomicFile file(command.out);
+  std::ofstream out(file.temporary(), std::ios::binary);
+  for (std::size_t n = 0; n < command.slices.size() && out; ++n) {
+    progress.step("slice " + command.slices[n],
+                  static_cast<double>(n) / static_cast<double>(command.slices.size()));
+    Slice slice = read_slice(command.slices[n]);
+    if (n == 0) {
+      out << header(command, slice);
+      first = slice;
+      first.values.clear();
+    }
+    require_alike(slice, first, command.slices[n], command.slices.front());
+    out.write(slice.values.data(), static_cast<std::streamsize>(slice.values.size()));
+  }
+  out.close();
+  if (!out) {
+    throw JobError("cannot write '" + command.out + "'; is the disk full?");
+  }
+  file.commit();
+  progress.done();
+  progress.line("wrote " + command.out + ": " + std::to_string(first.width) + " x " +
+                std::to_string(first.height) + " x " + std::to_string(command.slices.size()) + " voxels");
+}
+
+}  // namespace
+
+void add_tile_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<TileCommand>();
+  CLI::App* tile = app.add_subcommand("tile", "stacks 2-D slices, in the order given, to one volume");
+  tile->add_option("slices", command->slices, "grey slices of one size: PNG, BMP or TIFF")->required();
+  tile->add_option("--out", command->out, "volume, uncompressed: .nrrd or .mha")->required();
+  tile->add_option("--spacing", command->spacing_mm, "X,Y,Z: distance of pixels and of slices, mm")
+      ->required()
+      ->delimiter(',')
+      ->expected(3);
+  tile->add_option("--origin", command->origin_mm, "X,Y,Z: centre of the first voxel, LPS mm [0,0,0]")
+      ->delimiter(',')
+      ->expected(3);
+  tile->add_option("--threads", command->threads, "threads (tiling needs one)")->check(CLI::Range(0, 1024));
+  tile->add_flag("--quiet", command->quiet, "no progress");
+  tile->callback([command, &exit_code] {
+    run(*command);
+    exit_code = kExitSuccess;
+  });
+}
+
+}  // namespace cbc3d

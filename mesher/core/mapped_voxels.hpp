@@ -1,0 +1,34 @@
+// Voxels of an uncompressed NRRD file where they lie on the disk, so that no copy of them is in memory.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+namespace cbc3d {
+
+/// A file mapped read-only; the system takes its pages from memory again whenever it needs to.
+class MappedVoxels {
+ public:
+  MappedVoxels(MappedVoxels&& other) noexcept;
+  MappedVoxels& operator=(MappedVoxels&&) = delete;
+  ~MappedVoxels();
+
+  /// The first voxel's first byte.
+  [[nodiscard]] const void* data() const { return static_cast<const char*>(mapping_) + offset_; }
+
+ private:
+  friend std::optional<MappedVoxels> map_raw_nrrd(const std::filesystem::path&, std::size_t, std::size_t);
+  MappedVoxels(void* mapping, std::size_t length, std::size_t offset)
+      : mapping_(mapping), length_(length), offset_(offset) {}
+  void* mapping_;
+  std::size_t length_, offset_;
+};
+
+/// Maps the voxels of a .nrrd file that holds them itself, uncompressed, aligned and in this machine's byte
+/// order, `bytes` in all and `component_bytes` each; nothing for any other file, which then is to be read in
+/// the ordinary way.
+std::optional<MappedVoxels> map_raw_nrrd(const std::filesystem::path& path, std::size_t bytes,
+                                         std::size_t component_bytes);
+
+}  // namespace cbc3d
