@@ -20,6 +20,13 @@ struct Phantom {
   std::uint64_t seed = 0;
 };
 
+/// Which row of the table of deformation patterns a case's job stands in.
+struct DeformationPattern {
+  std::string pattern;  ///< the thinning of the target points: vertex, edge, face or no
+  std::string image;    ///< what was done to the image, as the table says it: "as it is"
+  std::string before;   ///< the case whose job has no iterations: the mesh before the deformation
+};
+
 struct Case {
   std::string name, title;
   std::vector<std::string> suites;
@@ -28,6 +35,7 @@ struct Case {
   std::string image_source;               ///< where to get it, and its licence
   std::optional<Phantom> phantom;         ///< absent for a file
   std::map<std::string, std::map<std::string, std::string>> parameters;  ///< mesher name -> option -> value
+  std::optional<DeformationPattern> deformation_pattern;                 ///< for the table of that name
   nlohmann::json paper = nlohmann::json::object();  ///< the paper's figures for this image, where it has any
 };
 

@@ -17,11 +17,13 @@ json good_manifest() {
           {"suites", {"demo"}},
           {"image", {{"file", "one.nrrd"}, {"sha256", std::string(64, 'a')}, {"source", "somewhere (MIT)"}}},
           {"parameters", {{"cgal", {{"cell-size", 2.5}, {"mode", "x"}}}}},
+          {"deformation_pattern", {{"pattern", "face"}, {"image", "as it is"}, {"before", "one"}}},
           {"paper", {{"note", "none"}}}};
 }
 
 json phantom_manifest() {
   json manifest = good_manifest();
+  manifest.erase("deformation_pattern");
   manifest["image"] = {
       {"phantom", {{"name", "organs"}, {"size", {16, 17, 18}}, {"spacing_mm", {1, 1.5, 2}}, {"seed", 3}}}};
   return manifest;
@@ -58,6 +60,10 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[1].parameters.at("cgal").at("cell-size"), "2.5");
   EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
   EXPECT_EQ(cases[1].paper.at("note"), "none");
+  ASSERT_TRUE(cases[1].deformation_pattern);
+  EXPECT_EQ(cases[1].deformation_pattern->pattern, "face");
+  EXPECT_EQ(cases[1].deformation_pattern->image, "as it is");
+  EXPECT_EQ(cases[1].deformation_pattern->before, "one");
   ASSERT_TRUE(cases[0].phantom);
   EXPECT_FALSE(cases[0].image_file);
   EXPECT_EQ(cases[0].phantom->name, "organs");
@@ -93,6 +99,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadKey{"/parameters/cgal", 3, "\"parameters.cgal\""},
                     BadKey{"/parameters/cgal/cell-size", {1, 2}, "\"parameters.cgal.cell-size\""},
                     BadKey{"/paper", {1, 2}, "\"paper\""},
+                    BadKey{"/deformation_pattern", "face", "\"deformation_pattern\""},
+                    BadKey{"/deformation_pattern/pattern", "corner", "vertex, edge, face, no"},
+                    BadKey{"/deformation_pattern/before", "ghost", "which no manifest has"},
                     BadKey{"/image/phantom/name", "ghost", "organs, shells"},
                     BadKey{"/image/phantom/size", {16, 17}, "\"image.phantom.size\""},
                     BadKey{"/image/phantom/size", {16, 17, 1.5}, "\"image.phantom.size\""},
