@@ -43,6 +43,30 @@ int spawn(const std::string& file, bool stay) {
   return 0;
 }
 
+/// Leaves a process in a session of its own, sleeping.
+int spawn_daemon(const std::string& file) {
+  const pid_t process = ::fork();
+  if (process == 0) {
+    ::setsid();
+    std::ofstream(file) << ::getpid() << std::endl;
+    sleep_long();
+    std::_Exit(0);
+  }
+  while (!std::ifstream(file)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return 0;
+}
+
+/// Waits for a grandchild that allocates.
+int spawn_allocate() {
+  if (::fork() == 0) {
+    std::_Exit(allocate());
+  }
+  sleep_long();
+  return 0;
+}
+
 int write_tet(const std::string& mesh_file, const std::string& report_file) {
   cbc3d::Mesh mesh;
   mesh.points = {{0.5, 0.5, 0.5}, {6.5, 0.5, 0.5}, {0.5, 6.5, 0.5}, {0.5, 0.5, 6.5}};
@@ -68,6 +92,8 @@ int main(int argc, char** argv) {
   if (mode == "allocate") return allocate();
   if (mode == "spawn") return spawn(first, false);
   if (mode == "spawn-and-stay") return spawn(first, true);
+  if (mode == "spawn-daemon") return spawn_daemon(first);
+  if (mode == "spawn-allocate") return spawn_allocate();
   if (mode == "fail" && argc > 3) return fail(argv[3]);
   if (mode == "mesh" && argc > 3) return write_tet(first, argv[3]);
   if (mode == "say") return std::fprintf(stderr, "%s\n", first.c_str()) < 0;
