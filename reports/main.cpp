@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   const std::vector<reports::Command> commands{
       reports::add_list_command(app),   reports::add_run_command(app),   reports::add_evaluate_command(app),
-      reports::add_tables_command(app), reports::add_merge_command(app), reports::add_phantom_command(app)};
+      reports::add_tables_command(app), reports::add_merge_command(app), reports::add_gate_command(app),
+      reports::add_phantom_command(app)};
   try {
     app.parse(argc, argv);
     for (const reports::Command& command : commands) {

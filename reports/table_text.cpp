@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "reports/markup.hpp"
 #include "reports/table.hpp"
 
 namespace cbc3d::reports {
@@ -24,18 +25,6 @@ std::vector<TextRow> texts_of(const Table& table, const Footnotes& footnotes, Ma
     rows.push_back(std::move(texts));
   }
   return rows;
-}
-
-std::string replace_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
-/// A reason may hold anything that a mesher printed: it stays on one line and closes no table cell.
-std::string markdown_text(const std::string& text) {
-  return replace_all(replace_all(text, "\n", " "), "|", "\\|");
 }
 
 std::string latex_text(const std::string& text) {

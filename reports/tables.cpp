@@ -8,6 +8,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "reports/statistics.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -134,12 +135,6 @@ std::string failure_of(const Json& result) {
   const std::string status = text_of(result, "status");
   const std::string reason = text_of(result, "reason");
   return reason.empty() ? status : status + ": " + reason;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 /// `runs`: the lines of one case and column.
