@@ -20,5 +20,7 @@ Command add_tables_command(CLI::App& app);
 Command add_phantom_command(CLI::App& app);
 Command add_merge_command(CLI::App& app);
 Command add_gate_command(CLI::App& app);
+Command add_report_command(CLI::App& app);
+Command add_sweep_command(CLI::App& app);
 
 }  // namespace cbc3d::reports

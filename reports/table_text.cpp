@@ -8,25 +8,6 @@
 namespace cbc3d::reports {
 namespace {
 
-using TextRow = std::vector<std::string>;
-
-/// The table as texts, header first, with `mark(number)` after a cell that has a footnote.
-template <class Mark>
-std::vector<TextRow> texts_of(const Table& table, const Footnotes& footnotes, Mark mark) {
-  TextRow header{"case", "figure"};
-  header.insert(header.end(), table.columns.begin(), table.columns.end());
-  std::vector<TextRow> rows{header};
-  for (const Row& row : table.rows) {
-    TextRow texts{row.case_name, row.figure};
-    for (std::size_t column = 0; column < row.cells.size(); ++column) {
-      const std::size_t number = footnotes.number(row, column);
-      texts.push_back(cell_text(row.cells[column], row.decimals) + (number > 0 ? mark(number) : ""));
-    }
-    rows.push_back(std::move(texts));
-  }
-  return rows;
-}
-
 std::string latex_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -87,7 +68,9 @@ std::vector<CsvColumn> csv_columns(const Table& table) {
       return std::any_of(table.rows.begin(), table.rows.end(),
                          [&](const Row& row) { return has(row.cells[column]); });
     };
-    columns.push_back({name, column, [](const Cell& c) { return c.value ? csv_number(*c.value) : "-"; }});
+    columns.push_back({name, column, [](const Cell& c) {
+                         return !c.text.empty() ? c.text : c.value ? csv_number(*c.value) : "-";
+                       }});
     if (any([](const Cell& c) { return c.runs > 1; })) {
       columns.push_back(
           {name + " min", column, [](const Cell& c) { return c.value ? csv_number(c.lowest) : "-"; }});
@@ -112,7 +95,7 @@ std::string to_markdown(const Table& table) {
   const auto rows =
       texts_of(table, footnotes, [](std::size_t number) { return " [" + std::to_string(number) + "]"; });
   std::vector<std::size_t> widths(rows.front().size(), 3);
-  for (const TextRow& row : rows) {
+  for (const std::vector<std::string>& row : rows) {
     for (std::size_t column = 0; column < row.size(); ++column) {
       widths[column] = std::max(widths[column], markdown_text(row[column]).size());
     }
@@ -161,7 +144,7 @@ std::string to_latex(const Table& table) {
 
 std::string to_csv(const Table& table) {
   const std::vector<CsvColumn> columns = csv_columns(table);
-  std::string text = "case,figure";
+  std::string text = csv_text(table.row_header) + "," + csv_text(table.figure_header);
   for (const CsvColumn& column : columns) {
     text += "," + csv_text(column.header);
   }
