@@ -144,6 +144,8 @@ void add_caption(vtkRenderer* renderer, const PictureOptions& options) {
   text->SetInput(options.caption.c_str());
   text->GetTextProperty()->SetFontSize(options.size_px / 40);
   text->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+  text->GetTextProperty()->SetBackgroundColor(1, 1, 1);
+  text->GetTextProperty()->SetBackgroundOpacity(0.8);
   text->GetTextProperty()->SetVerticalJustificationToTop();
   text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   text->SetPosition(0.02, 0.98);
@@ -173,7 +175,7 @@ void add_legend(vtkRenderer* renderer, const LabelImage& image, const PictureOpt
   }
 }
 
-/// A picture a third as wide, as JPEG, beside which a page of many loads fast.
+/// A copy of half the width as JPEG: a page of many loads fast.
 void write_small(vtkImageData* pixels, const std::filesystem::path& png, const PictureOptions& options) {
   constexpr int kQuality = 82;
   constexpr int kDivisor = 2;
