@@ -11,9 +11,9 @@
 namespace cbc3d::reports {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 400;
+constexpr double kWidth = 680, kHeight = 410;
 constexpr double kLeft = 70, kRight = 16, kTop = 40, kPlotBottom = 300;
-constexpr double kLegendLine = 18;
+constexpr double kLegendLine = 20;
 
 /// Distinct for the colour-blind too (Okabe and Ito), then repeated.
 constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -113,21 +113,21 @@ double slot_centre(const Chart& chart, std::size_t category) {
 }
 
 std::string axes(const Chart& chart, const Scale& scale) {
-  std::string svg = text(kWidth / 2, 22, chart.title, "middle", 15);
+  std::string svg = text(kWidth / 2, 22, chart.title, "middle", 16);
   for (const double tick : scale.ticks()) {
     svg += line(kLeft, scale.y(tick), kWidth - kRight, scale.y(tick), "#d8d8d8");
-    svg += text(kLeft - 6, scale.y(tick) + 4, tick_text(tick), "end", 11);
+    svg += text(kLeft - 6, scale.y(tick) + 4, tick_text(tick), "end", 13);
   }
   svg += line(kLeft, kPlotBottom, kWidth - kRight, kPlotBottom, "#333");
-  svg += text(18, (kTop + kPlotBottom) / 2, chart.y_title, "middle", 12, -90);
+  svg += text(18, (kTop + kPlotBottom) / 2, chart.y_title, "middle", 14, -90);
   const bool crowded = slot_width(chart) * chart.label_every < 70;
   for (std::size_t c = 0; c < chart.categories.size(); c += static_cast<std::size_t>(chart.label_every)) {
     const bool tilt = crowded && chart.categories[c].size() > 6;
-    svg += text(slot_centre(chart, c), kPlotBottom + 16, chart.categories[c], tilt ? "end" : "middle", 11,
+    svg += text(slot_centre(chart, c), kPlotBottom + 16, chart.categories[c], tilt ? "end" : "middle", 13,
                 tilt ? -30 : 0);
   }
   return svg +
-         text((kLeft + kWidth - kRight) / 2, kPlotBottom + (crowded ? 62 : 36), chart.x_title, "middle");
+         text((kLeft + kWidth - kRight) / 2, kPlotBottom + (crowded ? 62 : 36), chart.x_title, "middle", 14);
 }
 
 /// Names of the series in rows beneath the plot, and the note. `height` grows by what they need.
@@ -136,19 +136,19 @@ std::string legend(const Chart& chart, double& height) {
   double x = kLeft;
   double y = kPlotBottom + 86;
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
-    const double width = 34 + 7.0 * static_cast<double>(chart.series[s].name.size());
+    const double width = 36 + 7.4 * static_cast<double>(chart.series[s].name.size());
     if (x + width > kWidth - kRight && x > kLeft) {
       x = kLeft;
       y += kLegendLine;
     }
     const std::string colour = kColours[s % kColours.size()];
     svg += line(x, y - 4, x + 18, y - 4, colour, 5, chart.series[s].dashed);
-    svg += text(x + 23, y, chart.series[s].name, "start", 11);
+    svg += text(x + 23, y, chart.series[s].name, "start", 13);
     x += width;
   }
   if (!chart.note.empty()) {
     y += kLegendLine;
-    svg += text(kLeft, y, chart.note, "start", 10);
+    svg += text(kLeft, y, chart.note, "start", 12);
   }
   height = std::max(height, y + 14);
   return svg;
@@ -168,8 +168,9 @@ std::string error_bar_of(const Series& series, std::size_t n, double x, const Sc
 
 std::string bars(const Chart& chart, const Scale& scale) {
   constexpr double kFill = 0.84;  // of a category's slot
-  const double width =
-      kFill * slot_width(chart) / static_cast<double>(std::max<std::size_t>(chart.series.size(), 1));
+  constexpr double kWidest = 56;
+  const auto count = static_cast<double>(std::max<std::size_t>(chart.series.size(), 1));
+  const double width = std::min(kWidest, kFill * slot_width(chart) / count);
   std::string svg;
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
@@ -177,7 +178,7 @@ std::string bars(const Chart& chart, const Scale& scale) {
       if (!std::isfinite(series.values[c])) {
         continue;
       }
-      const double x = slot_centre(chart, c) - kFill * slot_width(chart) / 2 + width * static_cast<double>(s);
+      const double x = slot_centre(chart, c) + width * (static_cast<double>(s) - count / 2);
       const double top = scale.y(series.values[c]);
       svg += "<rect" +
              attributes({{"x", number(x)},

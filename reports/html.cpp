@@ -47,7 +47,9 @@ dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
 code { font-size: .8rem; overflow-wrap: anywhere; }
 @media (max-width: 40rem) {
   body { padding: .7rem; font-size: 15px; } h1 { font-size: 1.35rem; }
-  th:first-child, td:first-child { position: sticky; left: 0; background: #fff; max-width: 34vw; overflow-wrap: anywhere; }
+  th:first-child, td:first-child { position: sticky; left: 0; background: #fff; min-width: 6rem; max-width: 9rem;
+                                   overflow-wrap: break-word; }
+  .plots figure { overflow-x: auto; } .plots svg { min-width: 33rem; }
   dl { grid-template-columns: 1fr; } dd { margin-bottom: .4rem; }
 }
 @media print {

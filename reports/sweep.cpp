@@ -65,6 +65,11 @@ SweepPoint point_of(const std::vector<const Json*>& runs) {
   return point;
 }
 
+Ratio quotient(const Samples& base, const Samples& point) {
+  const double value = base.median_s / point.median_s;
+  return {value, value * std::hypot(relative_error(base), relative_error(point))};
+}
+
 /// Fills in the speed-up over the point of the same job with the fewest threads.
 void compare(SweepPoint& point, const std::vector<SweepPoint>& points) {
   const SweepPoint* base = nullptr;
@@ -79,14 +84,17 @@ void compare(SweepPoint& point, const std::vector<SweepPoint>& points) {
   }
   point.base_threads = base->threads;
   point.has_speed_up = base->threads != point.threads;
-  point.speed_up = base->total.median_s / point.total.median_s;
   if (point.has_speed_up) {
-    point.speed_up_error =
-        point.speed_up * std::hypot(relative_error(base->total), relative_error(point.total));
+    point.speed_up = quotient(base->total, point.total);
+    const double more = static_cast<double>(point.threads) / base->threads;
+    point.efficiency = {point.speed_up.value / more, point.speed_up.error / more};
+    for (const auto& [name, samples] : point.stages) {
+      const auto same = std::find_if(base->stages.begin(), base->stages.end(),
+                                     [&, wanted = name](const auto& stage) { return stage.first == wanted; });
+      const bool comparable = same != base->stages.end() && samples.median_s > 0;
+      point.stage_speed_ups.push_back(comparable ? quotient(same->second, samples) : Ratio{std::nan(""), 0});
+    }
   }
-  const double more = static_cast<double>(point.threads) / base->threads;
-  point.efficiency = point.speed_up / more;
-  point.efficiency_error = point.speed_up_error / more;
 }
 
 Json to_json(const Samples& samples) {
@@ -125,18 +133,21 @@ Json to_json(const std::vector<SweepPoint>& points) {
   Json list = Json::array();
   for (const SweepPoint& point : points) {
     Json stages = Json::object();
-    for (const auto& [name, samples] : point.stages) {
-      stages[name] = to_json(samples);
+    for (std::size_t n = 0; n < point.stages.size(); ++n) {
+      Json& stage = stages[point.stages[n].first] = to_json(point.stages[n].second);
+      const Ratio ratio = n < point.stage_speed_ups.size() ? point.stage_speed_ups[n] : Ratio{};
+      stage["speed_up"] = point.has_speed_up ? Json(ratio.value) : Json();
+      stage["speed_up_error"] = point.has_speed_up ? Json(ratio.error) : Json();
     }
     list.push_back({{"case", point.case_name},
                     {"mesher", point.mesher},
                     {"threads", point.threads},
                     {"seconds", to_json(point.total)},
                     {"base_threads", point.base_threads},
-                    {"speed_up", point.has_speed_up ? Json(point.speed_up) : Json()},
-                    {"speed_up_error", point.has_speed_up ? Json(point.speed_up_error) : Json()},
-                    {"efficiency", point.has_speed_up ? Json(point.efficiency) : Json()},
-                    {"efficiency_error", point.has_speed_up ? Json(point.efficiency_error) : Json()},
+                    {"speed_up", point.has_speed_up ? Json(point.speed_up.value) : Json()},
+                    {"speed_up_error", point.has_speed_up ? Json(point.speed_up.error) : Json()},
+                    {"efficiency", point.has_speed_up ? Json(point.efficiency.value) : Json()},
+                    {"efficiency_error", point.has_speed_up ? Json(point.efficiency.error) : Json()},
                     {"failure", point.failure},
                     {"stages", std::move(stages)}});
   }

@@ -19,17 +19,24 @@ struct Samples {
   double error_s = 0;   ///< standard error of the median
 };
 
+/// A quotient and its standard error.
+struct Ratio {
+  double value = 1;
+  double error = 0;
+};
+
 /// One mesher on one case with one thread count.
 struct SweepPoint {
   std::string case_name, mesher;
   int threads = 1;
   Samples total;
   std::vector<std::pair<std::string, Samples>> stages;  ///< those that every sample has
-  bool has_speed_up = false;  ///< there are samples with fewer threads to compare with
-  int base_threads = 1;       ///< the fewest threads, which the speed-up is over
-  double speed_up = 1, speed_up_error = 0;
-  double efficiency = 1, efficiency_error = 0;  ///< speed-up over threads / base_threads
-  std::string failure;                          ///< of a sample that is not ok; empty: none
+  std::vector<Ratio> stage_speed_ups;  ///< of the stages, in their order; empty without a speed-up
+  bool has_speed_up = false;           ///< there are samples with fewer threads to compare with
+  int base_threads = 1;                ///< the fewest threads, which the speed-up is over
+  Ratio speed_up;
+  Ratio efficiency;     ///< speed-up over threads / base_threads
+  std::string failure;  ///< of a sample that is not ok; empty: none
 };
 
 /// One point for every case, mesher and thread count. Errors of quotients: relative errors added in

@@ -18,8 +18,9 @@ std::string row_name(const SweepPoint& point) {
   return point.mesher + ", " + std::to_string(point.threads) + (point.threads == 1 ? " thread" : " threads");
 }
 
-std::string with_error(double value, double error) {
-  return format_number(value, 2) + " ± " + format_number(error, 2);
+std::string with_error(const Ratio& ratio) {
+  return std::isfinite(ratio.value) ? format_number(ratio.value, 2) + " ± " + format_number(ratio.error, 2)
+                                    : "-";
 }
 
 Cell outlier_cell(const Samples& samples) {
@@ -45,28 +46,32 @@ Row sweep_row(const SweepPoint& point) {
                number_cell(point.total.spread_s, 3),
                text_cell(format_number(*lowest, 3) + "-" + format_number(*highest, 3)),
                number_cell(static_cast<double>(point.total.seconds.size()), 0),
-               text_cell(point.has_speed_up ? with_error(point.speed_up, point.speed_up_error) : "1"),
-               text_cell(point.has_speed_up ? with_error(point.efficiency, point.efficiency_error) : "1"),
+               text_cell(point.has_speed_up ? with_error(point.speed_up) : "1"),
+               text_cell(point.has_speed_up ? with_error(point.efficiency) : "1"),
                outlier_cell(point.total)};
   row.cells[0].reason = point.failure;
   return row;
 }
 
 Table stage_table(const std::vector<SweepPoint>& points) {
-  Table table{"sweep_stages",
-              "Stages over threads: median seconds, spread and share of the job",
-              {"median (s)", "spread (s)", "share (%)", "outliers"},
-              {},
-              "case, mesher",
-              "stage"};
+  Table table{
+      "sweep_stages",
+      "Stages over threads: median seconds, spread, share of the job and speed-up with standard error",
+      {"median (s)", "spread (s)", "share (%)", "speed-up", "outliers"},
+      {},
+      "case, mesher",
+      "stage"};
   for (const SweepPoint& point : points) {
-    for (const auto& [name, samples] : point.stages) {
+    for (std::size_t n = 0; n < point.stages.size(); ++n) {
+      const auto& [name, samples] = point.stages[n];
       const double share = point.total.median_s > 0 ? 100 * samples.median_s / point.total.median_s : 0;
-      table.rows.push_back({point.case_name + ", " + row_name(point),
-                            name,
-                            3,
-                            {number_cell(samples.median_s, 4), number_cell(samples.spread_s, 4),
-                             number_cell(share, 1), outlier_cell(samples)}});
+      table.rows.push_back(
+          {point.case_name + ", " + row_name(point),
+           name,
+           3,
+           {number_cell(samples.median_s, 4), number_cell(samples.spread_s, 4), number_cell(share, 1),
+            text_cell(point.has_speed_up ? with_error(point.stage_speed_ups[n]) : "1"),
+            outlier_cell(samples)}});
     }
   }
   return table;
@@ -124,7 +129,7 @@ void add_case_figures(std::vector<Figure>& figures, const std::vector<SweepPoint
   Chart speed_up = empty_chart(threads, case_name + ": speed-up over threads", "speed-up");
   speed_up.note = "Bars: standard error. Dashed: as many times faster as threads";
   add_meshers(speed_up, threads, points, case_name,
-              [](const SweepPoint& p) { return std::pair(p.speed_up, p.speed_up_error); });
+              [](const SweepPoint& p) { return std::pair(p.speed_up.value, p.speed_up.error); });
   Series ideal{"ideal", {}, {}, true};
   for (const int count : threads) {
     ideal.values.push_back(static_cast<double>(count) / threads.front());

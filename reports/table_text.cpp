@@ -90,6 +90,27 @@ std::vector<CsvColumn> csv_columns(const Table& table) {
 
 }  // namespace
 
+namespace {
+
+/// Characters of UTF-8: bytes that do not continue one.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
+}
+
+/// A line of a Markdown table; the first two columns are set left.
+std::string markdown_line(const std::vector<std::string>& entries, const std::vector<std::size_t>& widths) {
+  std::string text = "|";
+  for (std::size_t column = 0; column < widths.size(); ++column) {
+    const std::string entry = markdown_text(entries[column]);
+    const std::string padding(widths[column] - width_of(entry), ' ');
+    text += " " + (column < 2 ? entry + padding : padding + entry) + " |";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
 std::string to_markdown(const Table& table) {
   const Footnotes footnotes(table);
   const auto rows =
@@ -97,21 +118,18 @@ std::string to_markdown(const Table& table) {
   std::vector<std::size_t> widths(rows.front().size(), 3);
   for (const std::vector<std::string>& row : rows) {
     for (std::size_t column = 0; column < row.size(); ++column) {
-      widths[column] = std::max(widths[column], markdown_text(row[column]).size());
+      widths[column] = std::max(widths[column], width_of(markdown_text(row[column])));
     }
   }
   std::string text = "### " + table.title + "\n\n";
-  for (std::size_t line = 0; line < rows.size(); ++line) {
-    std::string rule = "|";
-    text += "|";
-    for (std::size_t column = 0; column < widths.size(); ++column) {
-      const std::string entry = markdown_text(rows[line][column]);
-      const std::string padding(widths[column] - entry.size(), ' ');
-      const bool left = column < 2;
-      text += " " + (left ? entry + padding : padding + entry) + " |";
-      rule += left ? std::string(widths[column] + 2, '-') + "|" : std::string(widths[column] + 1, '-') + ":|";
-    }
-    text += "\n" + (line == 0 ? rule + "\n" : "");
+  text += markdown_line(rows.front(), widths) + "|";
+  for (std::size_t column = 0; column < widths.size(); ++column) {
+    text +=
+        column < 2 ? std::string(widths[column] + 2, '-') + "|" : std::string(widths[column] + 1, '-') + ":|";
+  }
+  text += "\n";
+  for (std::size_t line = 1; line < rows.size(); ++line) {
+    text += markdown_line(rows[line], widths);
   }
   for (std::size_t note = 0; note < footnotes.notes().size(); ++note) {
     text += (note == 0 ? "\n[" : "[") + std::to_string(note + 1) + "] " +

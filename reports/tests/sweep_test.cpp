@@ -55,13 +55,15 @@ TEST(Sweep, SpeedUpAndEfficiencyComeWithTheirErrors) {
   EXPECT_FALSE(points[0].has_speed_up);
   EXPECT_EQ(points[0].total.seconds.size(), 5U);
   EXPECT_TRUE(points[0].total.outlier[4]);
-  EXPECT_DOUBLE_EQ(points[1].speed_up, 4.0 / 2.5);
-  EXPECT_DOUBLE_EQ(points[1].efficiency, 0.8);
+  EXPECT_DOUBLE_EQ(points[1].speed_up.value, 4.0 / 2.5);
+  EXPECT_DOUBLE_EQ(points[1].efficiency.value, 0.8);
   const double relative = points[0].total.error_s / 4.0;
   EXPECT_GT(relative, 0);
-  EXPECT_NEAR(points[1].speed_up_error, 1.6 * std::hypot(relative, points[1].total.error_s / 2.5), 1e-12);
+  EXPECT_NEAR(points[1].speed_up.error, 1.6 * std::hypot(relative, points[1].total.error_s / 2.5), 1e-12);
   ASSERT_EQ(points[1].stages.size(), 2U);
   EXPECT_DOUBLE_EQ(points[1].stages[1].second.median_s, 1.25);
+  ASSERT_EQ(points[1].stage_speed_ups.size(), 2U);
+  EXPECT_DOUBLE_EQ(points[1].stage_speed_ups[0].value, 1.6);
 }
 
 TEST(Sweep, AllSamplesAreKeptAndOutliersFlagged) {
