@@ -120,14 +120,17 @@ std::string axes(const Chart& chart, const Scale& scale) {
   }
   svg += line(kLeft, kPlotBottom, kWidth - kRight, kPlotBottom, "#333");
   svg += text(18, (kTop + kPlotBottom) / 2, chart.y_title, "middle", 14, -90);
-  const bool crowded = slot_width(chart) * chart.label_every < 70;
+  std::size_t longest = 0;
+  for (const std::string& category : chart.categories) {
+    longest = std::max(longest, category.size());
+  }
+  const bool tilt = slot_width(chart) * chart.label_every < 9.0 * static_cast<double>(longest);
   for (std::size_t c = 0; c < chart.categories.size(); c += static_cast<std::size_t>(chart.label_every)) {
-    const bool tilt = crowded && chart.categories[c].size() > 6;
     svg += text(slot_centre(chart, c), kPlotBottom + 16, chart.categories[c], tilt ? "end" : "middle", 13,
                 tilt ? -30 : 0);
   }
   return svg +
-         text((kLeft + kWidth - kRight) / 2, kPlotBottom + (crowded ? 62 : 36), chart.x_title, "middle", 14);
+         text((kLeft + kWidth - kRight) / 2, kPlotBottom + (tilt ? 62 : 38), chart.x_title, "middle", 14);
 }
 
 /// Names of the series in rows beneath the plot, and the note. `height` grows by what they need.

@@ -59,11 +59,11 @@ std::vector<double> shares(const Json& histogram) {
 Chart histogram_of(const std::string& case_name, const Columns& columns) {
   Chart chart;
   chart.title = case_name + ": distribution of the dihedral angles";
-  chart.x_title = "dihedral angle (deg)";
+  chart.x_title = "dihedral angle (deg): lower end of each step of 5";
   chart.y_title = "share of the angles (%)";
   chart.label_every = 3;
   for (std::size_t bin = 0; bin < kHistogramBins; ++bin) {
-    chart.categories.push_back(std::to_string(5 * bin) + "-" + std::to_string(5 * bin + 5));
+    chart.categories.push_back(std::to_string(5 * bin));
   }
   for (const std::string& column : columns.names()) {
     const Json* result = first_good(columns.runs(case_name, column));

@@ -49,7 +49,7 @@ code { font-size: .8rem; overflow-wrap: anywhere; }
   body { padding: .7rem; font-size: 15px; } h1 { font-size: 1.35rem; }
   th:first-child, td:first-child { position: sticky; left: 0; background: #fff; min-width: 6rem; max-width: 9rem;
                                    overflow-wrap: break-word; }
-  .plots figure { overflow-x: auto; } .plots svg { min-width: 33rem; }
+  .plots figure { overflow-x: auto; } .plots svg { min-width: 28rem; }
   dl { grid-template-columns: 1fr; } dd { margin-bottom: .4rem; }
 }
 @media print {
