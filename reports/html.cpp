@@ -44,7 +44,7 @@ figcaption { font-size: .8rem; color: #444; }
 .badge.ok { background: #cfeadb; } .badge.bad { background: #f7d5cc; }
 dl { display: grid; grid-template-columns: minmax(7rem, auto) 1fr; gap: .1rem 1rem; font-size: .85rem; }
 dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
-code { font-size: .8rem; overflow-wrap: anywhere; }
+td code { font-size: .78rem; white-space: nowrap; }
 @media (max-width: 40rem) {
   body { padding: .7rem; font-size: 15px; } h1 { font-size: 1.35rem; }
   th:first-child, td:first-child { position: sticky; left: 0; background: #fff; min-width: 6rem; max-width: 9rem;
@@ -54,7 +54,7 @@ code { font-size: .8rem; overflow-wrap: anywhere; }
 }
 @media print {
   body { max-width: none; padding: 0; font-size: 10pt; } nav { display: none; }
-  .scroll { overflow: visible; } table { font-size: 7.5pt; } th, td { padding: .1rem .25rem; }
+  .scroll { overflow: visible; } table { font-size: 7.5pt; } td code { font-size: 5.5pt; } th, td { padding: .1rem .25rem; }
   tr, figure, .plots > *, .pictures > * { break-inside: avoid; } h2, h3 { break-after: avoid; }
   .pictures { grid-template-columns: repeat(4, 1fr); } .plots { grid-template-columns: repeat(2, 1fr); }
   a { color: inherit; text-decoration: none; }
@@ -65,12 +65,21 @@ std::string element(const std::string& name, const std::string& content, const s
   return "<" + name + (attributes.empty() ? "" : " " + attributes) + ">" + content + "</" + name + ">\n";
 }
 
+/// True for a table of words rather than figures.
+bool holds_texts(const Table& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) {
+    return std::all_of(row.cells.begin(), row.cells.end(),
+                       [](const Cell& cell) { return !cell.text.empty(); });
+  });
+}
+
 std::string table_html(const Table& table) {
   const Footnotes footnotes(table);
   const auto rows =
       texts_of(table, footnotes, [](std::size_t number) { return " [" + std::to_string(number) + "]"; });
   std::string html = element("h3", markup_text(table.title), "id=\"table-" + markup_text(table.name) + "\"");
-  html += "<div class=\"scroll\"><table>\n";
+  html += holds_texts(table) ? "<div class=\"scroll\"><table class=\"left\">\n"
+                             : "<div class=\"scroll\"><table>\n";
   for (std::size_t line = 0; line < rows.size(); ++line) {
     html += line == 0 ? "<thead><tr>" : "<tr>";
     for (std::size_t column = 0; column < rows[line].size(); ++column) {
@@ -204,17 +213,28 @@ std::string joint_value(const Report& report, const char* key) {
   return text;
 }
 
+/// "key=value, key=value".
+std::string parameters_text(const Json& result) {
+  const Json parameters = result.value("parameters", Json::object());
+  std::string text;
+  for (const auto& [key, value] : parameters.items()) {
+    text += (text.empty() ? "" : ", ") + key + "=" + plain(value);
+  }
+  return text;
+}
+
 std::string job_digests(const Report& report) {
   std::string rows;
   for (const Json& result : report.results) {
     const auto text = [&](const char* key) {
       const Json value = figure(result, {"provenance", key});
-      const std::string all = value.is_null() ? "-" : plain(value);
+      const std::string all = value.is_null()           ? "-"
+                              : value.is_number_float() ? format_number(value.get<double>(), 2)
+                                                        : plain(value);
       return "<td><code>" + markup_text(all.size() == 64 ? all.substr(0, 12) : all) + "</code></td>";
     };
-    rows += "<tr><td>" + markup_text(result_id(result)) + "</td><td>" +
-            markup_text(result.value("parameters", Json::object()).dump()) + "</td>" +
-            text("mesher_version") + text("mesher_licence") + text("seed") + text("image_sha256") +
+    rows += "<tr><td>" + markup_text(result_id(result)) + "</td><td>" + markup_text(parameters_text(result)) +
+            "</td>" + text("mesher_version") + text("mesher_licence") + text("seed") + text("image_sha256") +
             text("configuration_sha256") + text("program_sha256") + text("load_1min") + text("utc") +
             "</tr>\n";
   }
