@@ -190,25 +190,27 @@ std::string failures(const Report& report) {
 }
 
 std::string plain(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string()         ? value.get<std::string>()
+         : value.is_number_float() ? format_number(value.get<double>(), 2)
+                                   : value.dump();
 }
 
-/// The distinct values of a key of the provenance.
+/// The distinct values of a key of the provenance, or of many their range.
 std::string joint_value(const Report& report, const char* key) {
-  std::vector<std::string> values;
+  std::vector<Json> values;
   for (const Json& result : report.results) {
     const Json value = figure(result, {"provenance", key});
-    if (!value.is_null() && std::find(values.begin(), values.end(), plain(value)) == values.end()) {
-      values.push_back(plain(value));
+    if (!value.is_null() && std::find(values.begin(), values.end(), value) == values.end()) {
+      values.push_back(value);
     }
   }
   if (values.size() > 3) {
-    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-    return *lowest + " … " + *highest + " (" + std::to_string(values.size()) + " values)";
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());  // numbers as numbers
+    return plain(*lowest) + " … " + plain(*highest) + " (" + std::to_string(values.size()) + " values)";
   }
   std::string text;
-  for (const std::string& value : values) {
-    text += (text.empty() ? "" : "; ") + value;
+  for (const Json& value : values) {
+    text += (text.empty() ? "" : "; ") + plain(value);
   }
   return text;
 }
@@ -228,9 +230,7 @@ std::string job_digests(const Report& report) {
   for (const Json& result : report.results) {
     const auto text = [&](const char* key) {
       const Json value = figure(result, {"provenance", key});
-      const std::string all = value.is_null()           ? "-"
-                              : value.is_number_float() ? format_number(value.get<double>(), 2)
-                                                        : plain(value);
+      const std::string all = value.is_null() ? "-" : plain(value);
       return "<td><code>" + markup_text(all.size() == 64 ? all.substr(0, 12) : all) + "</code></td>";
     };
     rows += "<tr><td>" + markup_text(result_id(result)) + "</td><td>" + markup_text(parameters_text(result)) +
