@@ -1,6 +1,8 @@
 #include "baselines/adapter.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 
 #include "mesher/core/error.hpp"
 
@@ -11,6 +13,21 @@ Availability executable_availability(const std::filesystem::path& bin_dir, const
   std::error_code ignored;
   if (std::filesystem::is_regular_file(bin_dir / executable, ignored)) return {true, ""};
   return {false, remedy};
+}
+
+std::filesystem::path find_program(const std::string& program) {
+  std::error_code ignored;
+  if (program.find('/') != std::string::npos) {
+    return std::filesystem::is_regular_file(program, ignored) ? std::filesystem::path(program)
+                                                              : std::filesystem::path();
+  }
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const auto candidate = std::filesystem::path(folder.empty() ? "." : folder) / program;
+    if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
+  }
+  return {};
 }
 
 namespace {

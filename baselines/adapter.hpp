@@ -44,11 +44,16 @@ struct Adapter {
   std::function<Availability(const std::filesystem::path& bin_dir)> availability;
   /// The argument vector of a job. Throws InputError for a parameter the mesher does not have.
   std::function<std::vector<std::string>(const std::filesystem::path& bin_dir, const MeshJob&)> command;
+  std::string mesh_extension = ".vtu";       ///< of the mesh file that the command writes
+  std::vector<std::string> version_command;  ///< prints the version; empty: the report tells it
 };
 
 /// Available when `executable` is a file in `bin_dir`; otherwise the reason is `remedy`.
 Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,
                                      const std::string& remedy);
+
+/// Where the shell would find a program: itself when it is a path, else its place in PATH; empty: nowhere.
+std::filesystem::path find_program(const std::string& program);
 
 /// Throws InputError, naming the known keys, when `job` has a parameter that `known` lacks.
 void require_known_parameters(const std::string& mesher, const std::vector<ParameterSpec>& known,

@@ -31,6 +31,13 @@ struct Derivation {
 /// Mesher name -> option -> value.
 using MesherParameters = std::map<std::string, std::map<std::string, std::string>>;
 
+/// Which row of the table of deformation patterns a case's job stands in.
+struct DeformationPattern {
+  std::string pattern;  ///< the thinning of the target points: vertex, edge, face or no
+  std::string image;    ///< what was done to the image, as the table says it: "as it is"
+  std::string before;   ///< the case whose job has no iterations: the mesh before the deformation
+};
+
 struct Case {
   std::string name, title;
   std::vector<std::string> suites;
@@ -42,6 +49,7 @@ struct Case {
   MesherParameters parameters;
   /// By the set's name: laid over `parameters` when a run asks for the set.
   std::map<std::string, MesherParameters> parameter_sets;
+  std::optional<DeformationPattern> deformation_pattern;  ///< for the table of that name
   nlohmann::json paper = nlohmann::json::object();  ///< the paper's figures for this image, where it has any
 };
 

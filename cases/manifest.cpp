@@ -1,6 +1,7 @@
 #include "cases/manifest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <initializer_list>
 #include <set>
@@ -140,6 +141,16 @@ MesherParameters read_parameters(const Section& parameters) {
   return result;
 }
 
+DeformationPattern read_deformation_pattern(const Section& section) {
+  section.require_known_keys({"pattern", "image", "before"});
+  DeformationPattern result{section.text("pattern"), section.text("image"), section.text("before")};
+  constexpr std::array<std::string_view, 4> kPatterns{"vertex", "edge", "face", "no"};
+  if (std::find(kPatterns.begin(), kPatterns.end(), result.pattern) == kPatterns.end()) {
+    section.fail("pattern", "is \"" + result.pattern + "\", not one of vertex, edge, face, no");
+  }
+  return result;
+}
+
 json parse_file(const fs::path& file) {
   std::ifstream in(file);
   if (!in) {
@@ -152,11 +163,23 @@ json parse_file(const fs::path& file) {
   return parsed;
 }
 
+/// A table row needs both its jobs, so a slip in the name of the case before is found at once.
+void require_cases_before(const std::vector<Case>& cases, const std::vector<fs::path>& files,
+                          const std::set<std::string>& names) {
+  for (std::size_t n = 0; n < cases.size(); ++n) {
+    if (cases[n].deformation_pattern && !names.contains(cases[n].deformation_pattern->before)) {
+      throw InputError("'" + files[n].string() + "': \"deformation_pattern.before\" is \"" +
+                       cases[n].deformation_pattern->before + "\", which no manifest has as its name; see " +
+                       "cases/README.md");
+    }
+  }
+}
+
 Case read_case(const fs::path& file) {
   const json parsed = parse_file(file);
   const Section top{parsed, file, ""};
-  top.require_known_keys(
-      {"name", "title", "suites", "image", "derive", "parameters", "parameter_sets", "paper"});
+  top.require_known_keys({"name", "title", "suites", "image", "derive", "parameters", "parameter_sets",
+                          "deformation_pattern", "paper"});
   Case result;
   result.name = top.text("name");
   result.title = top.text("title");
@@ -178,6 +201,9 @@ Case read_case(const fs::path& file) {
     for (const auto& [set, unused] : sets.object.items()) {
       result.parameter_sets[set] = read_parameters(sets.section(set));
     }
+  }
+  if (parsed.contains("deformation_pattern")) {
+    result.deformation_pattern = read_deformation_pattern(top.section("deformation_pattern"));
   }
   if (parsed.contains("paper")) {
     result.paper = top.section("paper").object;
@@ -210,6 +236,7 @@ std::vector<Case> load_cases(const fs::path& manifest_dir) {
                        "\", which another manifest has too; choose another");
     }
   }
+  require_cases_before(cases, files, names);
   return cases;
 }
 

@@ -54,4 +54,10 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   return digest.finish();
 }
 
+std::string sha256_of_text(std::string_view text) {
+  Sha256 digest;
+  digest.add(text.data(), text.size());
+  return digest.finish();
+}
+
 }  // namespace cbc3d::cases

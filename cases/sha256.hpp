@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace cbc3d::cases {
 
@@ -24,5 +25,8 @@ class Sha256 {
 
 /// Lower-case hexadecimal. Throws InputError when the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
+
+/// Lower-case hexadecimal.
+std::string sha256_of_text(std::string_view text);
 
 }  // namespace cbc3d::cases

@@ -11,7 +11,8 @@ struct ChildCommand {
   std::vector<std::string> argv;  ///< program (a path, or a name searched for in PATH) and its arguments
   int threads = 0;                ///< value of OMP_NUM_THREADS and the like; 0 leaves the environment alone
   double timeout_s = 0;           ///< wall-clock limit, s; 0: none
-  std::int64_t memory_limit_bytes = 0;  ///< limit on the resident memory of the whole process group; 0: none
+  std::int64_t memory_limit_bytes =
+      0;  ///< limit on the resident memory of the command and all it started; 0: none
 };
 
 enum class ChildEnd {
@@ -27,14 +28,16 @@ struct ChildResult {
   int exit_code = 0;
   int signal = 0;
   double wall_s = 0;
-  double cpu_s = 0;                 ///< user + system, of the child and the children it waited for
-  std::int64_t peak_rss_bytes = 0;  ///< the larger of the kernel's figure and the sampled sum of the group
-  std::string stderr_tail;          ///< the last 16 KiB that the child wrote to standard error
+  double cpu_s = 0;  ///< user + system, of the child and the children it waited for
+  std::int64_t peak_rss_bytes =
+      0;                    ///< the larger of the kernel's figure and the sampled sum of all processes
+  std::string stderr_tail;  ///< the last 16 KiB that the child wrote to standard error
 };
 
-/// Runs a command in a process group of its own and waits for it; standard output is dropped. At a limit the
-/// whole group is killed, and also when this process gets SIGINT, SIGTERM or SIGHUP or dies itself. One child
-/// at a time: not to be called from two threads. Throws JobError when no process can be made at all.
+/// Runs a command in a process group of its own and waits for it; standard output is dropped. Everything that
+/// the command started, even in other groups and sessions, is killed when it ends or meets a limit, and when
+/// this process dies of any signal, SIGKILL too. One child at a time: not to be called from two threads.
+/// Throws JobError when no process can be made at all.
 ChildResult run_child(const ChildCommand& command);
 
 /// The last line of `text` that is not blank; empty if there is none.

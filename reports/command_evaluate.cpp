@@ -31,6 +31,14 @@ void print_section(const nlohmann::json& evaluation, const std::string& section)
   }
 }
 
+/// What the image is, for the table of image data.
+nlohmann::json image_section(const LabelImage& image) {
+  const Vec3& spacing = image.frame.spacing_mm;
+  return {{"size", image.frame.size},
+          {"spacing_mm", {spacing.x, spacing.y, spacing.z}},
+          {"labels", std::vector<Label>(image.labels.begin() + 1, image.labels.end())}};
+}
+
 int evaluate(const EvaluateCommandOptions& options) {
   if (!options.json.empty()) {
     require_writable(options.json);
@@ -40,7 +48,8 @@ int evaluate(const EvaluateCommandOptions& options) {
   progress.step("reading", 0);
   const Mesh mesh = read_mesh(options.mesh);
   const LabelImage image = read_label_image(options.image);
-  const nlohmann::json evaluation = metrics::evaluate(mesh, image, options.metrics, progress);
+  nlohmann::json evaluation = metrics::evaluate(mesh, image, options.metrics, progress);
+  evaluation["image"] = image_section(image);
   progress.done();
   if (!options.json.empty()) {
     write_text_file(options.json, evaluation.dump(2) + "\n");

@@ -2,10 +2,10 @@
 #include <iostream>
 #include <map>
 
-#include "baselines/registry.hpp"
 #include "cases/case.hpp"
 #include "cases/manifest.hpp"
 #include "reports/commands.hpp"
+#include "reports/selection.hpp"
 #include "reports/workplace.hpp"
 
 namespace cbc3d::reports {
@@ -13,13 +13,14 @@ namespace {
 
 struct ListOptions {
   std::string what;
-  std::vector<std::string> data;
+  std::vector<std::string> data, externals;
+  std::string manifests;
   int threads = 0;
   bool quiet = false;
 };
 
-void list_meshers() {
-  for (const baselines::Adapter& mesher : baselines::registry()) {
+void list_meshers(const ListOptions& options) {
+  for (const baselines::Adapter& mesher : all_meshers(options.externals)) {
     const baselines::Availability availability = mesher.availability(bin_dir());
     std::cout << mesher.name << ": " << mesher.description << " [" << mesher.licence << "]"
               << (mesher.multithreaded ? "" : ", sequential")
@@ -35,7 +36,7 @@ void list_meshers() {
 
 void list_cases(const ListOptions& options) {
   const auto folders = data_dirs({options.data.begin(), options.data.end()});
-  for (const cases::Case& subject : cases::load_cases(manifest_dir())) {
+  for (const cases::Case& subject : cases_of(options.manifests)) {
     std::cout << subject.name << ": " << subject.title << '\n';
     std::cout << "    suites:";
     for (const std::string& suite : subject.suites) {
@@ -55,9 +56,9 @@ void list_cases(const ListOptions& options) {
   }
 }
 
-void list_suites() {
+void list_suites(const ListOptions& options) {
   std::map<std::string, std::string> suites;
-  for (const cases::Case& subject : cases::load_cases(manifest_dir())) {
+  for (const cases::Case& subject : cases_of(options.manifests)) {
     for (const std::string& suite : subject.suites) {
       suites[suite] += " " + subject.name;
     }
@@ -77,15 +78,21 @@ Command add_list_command(CLI::App& app) {
       ->check(CLI::IsMember({"meshers", "cases", "suites"}));
   parser->add_option("--data", options->data, "folder with case images (may be given again)")
       ->allow_extra_args(false);
+  parser
+      ->add_option("--external", options->externals,
+                   "JSON file of a mesher from outside (may be given again)")
+      ->allow_extra_args(false);
+  parser->add_option("--manifests", options->manifests,
+                     "folder of case manifests, *.json; default: the installed ones");
   parser->add_option("--threads", options->threads, "threads (listing needs one)")->capture_default_str();
   parser->add_flag("--quiet", options->quiet, "no progress (listing shows none)");
   return {parser, [options] {
             if (options->what == "meshers") {
-              list_meshers();
+              list_meshers(*options);
             } else if (options->what == "cases") {
               list_cases(*options);
             } else {
-              list_suites();
+              list_suites(*options);
             }
             return 0;
           }};

@@ -18,5 +18,9 @@ Command add_run_command(CLI::App& app);
 Command add_evaluate_command(CLI::App& app);
 Command add_tables_command(CLI::App& app);
 Command add_phantom_command(CLI::App& app);
+Command add_merge_command(CLI::App& app);
+Command add_gate_command(CLI::App& app);
+Command add_report_command(CLI::App& app);
+Command add_sweep_command(CLI::App& app);
 
 }  // namespace cbc3d::reports

@@ -8,11 +8,12 @@ int main(int argc, char** argv) {
   using namespace cbc3d;
   CLI::App app{
       "Runs meshers on segmented images, judges the meshes and writes comparison tables.\n"
-      "Exit codes: 0 success, 2 bad usage or input, 3 a job failed."};
+      "Exit codes: 0 success, 1 a gate that does not hold, 2 bad usage or input, 3 a job failed."};
   app.require_subcommand(1);
   const std::vector<reports::Command> commands{
-      reports::add_list_command(app), reports::add_run_command(app), reports::add_evaluate_command(app),
-      reports::add_tables_command(app), reports::add_phantom_command(app)};
+      reports::add_list_command(app),   reports::add_run_command(app),   reports::add_evaluate_command(app),
+      reports::add_tables_command(app), reports::add_merge_command(app), reports::add_gate_command(app),
+      reports::add_report_command(app), reports::add_sweep_command(app), reports::add_phantom_command(app)};
   try {
     app.parse(argc, argv);
     for (const reports::Command& command : commands) {

@@ -1,4 +1,4 @@
-// What a run leaves beside its results file: tables and pictures.
+// What a run leaves beside its results file: tables, plots and pictures.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,9 @@
 
 #include "cases/case.hpp"
 #include "mesher/core/progress.hpp"
+#include "reports/figures.hpp"
 #include "reports/result.hpp"
+#include "reports/table.hpp"
 
 namespace cbc3d::reports {
 
@@ -16,6 +18,14 @@ struct OutputOptions {
   bool pictures = true;                                          ///< draw cut sections and surfaces
   bool quiet = false;                                            ///< print no tables
 };
+
+/// Every table of a run, in the order in which they are shown. A folder with a sweep.json has its tables too,
+/// one with a microbenchmarks.json that one.
+std::vector<Table> all_tables(const std::filesystem::path& folder, const std::vector<Json>& results,
+                              const std::vector<cases::Case>& cases);
+
+/// Every plot of a run, with those of a sweep.
+std::vector<Figure> all_figures(const std::filesystem::path& folder, const std::vector<Json>& results);
 
 /// Writes `folder`/tables and `folder`/figures and prints the tables as Markdown to standard output.
 void write_output(const std::filesystem::path& folder, const std::vector<Json>& results,

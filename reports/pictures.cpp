@@ -3,6 +3,7 @@
 #include <set>
 
 #include "reports/child_process.hpp"
+#include "reports/picture_kinds.hpp"
 #include "reports/table.hpp"
 
 namespace cbc3d::reports {
@@ -11,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr double kTimeoutS = 180;
 constexpr std::int64_t kMemoryLimitBytes = std::int64_t{8} << 30;
-constexpr int kPicturesPerMesh = 2;
+constexpr int kPicturesPerMesh = 4;
 
 std::string caption_of(const Json& result) {
   std::string text = result.value("case", "") + "  -  " + result.value("mesher", "");
@@ -23,22 +24,52 @@ std::string caption_of(const Json& result) {
   return text + "  -  " + format_number(elements, 0) + " elements";
 }
 
-ChildResult draw(const fs::path& out_dir, const Json& result, const fs::path& bin_dir) {
-  const std::string stem = result.value("case", "") + "-" + result.value("mesher", "");
-  const fs::path figures = out_dir / "figures";
-  const std::string image = figure(result, {"provenance", "image_file"}).get<std::string>();
-  return run_child({{"xvfb-run", "-a", "--server-args=-screen 0 1280x1024x24", bin_dir / "cbc3d-picture",
-                     out_dir / result["mesh_file"].get<std::string>(), "--image", image, "--cut",
-                     figures / (stem + "-cut.png"), "--surface", figures / (stem + "-surface.png"),
-                     "--caption", caption_of(result), "--quiet"},
-                    0,
-                    kTimeoutS,
-                    kMemoryLimitBytes});
+/// Every kind of picture of a mesh, and small copies for the report in figures/small. `mixed`: a mesh of
+/// mixed elements to put beside it; null: none.
+ChildResult draw(const fs::path& out_dir, const Json& result, const Json* mixed, const fs::path& bin_dir) {
+  const std::string stem = picture_stem(result.value("case", ""), result.value("mesher", ""));
+  std::vector<std::string> argv{"xvfb-run",
+                                "-a",
+                                "--server-args=-screen 0 1280x1024x24",
+                                bin_dir / "cbc3d-picture",
+                                out_dir / result["mesh_file"].get<std::string>(),
+                                "--image",
+                                figure(result, {"provenance", "image_file"}).get<std::string>(),
+                                "--caption",
+                                caption_of(result),
+                                "--small",
+                                out_dir / "figures" / "small",
+                                "--quiet"};
+  for (const PictureKind& kind : picture_kinds()) {
+    if (std::string(kind.name) != "beside") {
+      argv.insert(argv.end(),
+                  {std::string("--") + kind.name, out_dir / "figures" / (stem + "-" + kind.name + ".png")});
+    } else if (mixed != nullptr) {
+      argv.insert(argv.end(), {"--beside", out_dir / "figures" / (stem + "-beside.png"), "--mixed-mesh",
+                               out_dir / (*mixed)["mesh_file"].get<std::string>(), "--mixed-caption",
+                               caption_of(*mixed)});
+    }
+  }
+  return run_child({argv, 0, kTimeoutS, kMemoryLimitBytes});
 }
 
 bool can_be_drawn(const Json& result) {
   return result.value("status", "") == "ok" && figure(result, {"mesh_file"}).is_string() &&
          figure(result, {"provenance", "image_file"}).is_string();
+}
+
+/// The mesh of mixed elements of the same case, for the mesher with the paper's settings.
+const Json* mixed_partner(const std::vector<Json>& results, const Json& result) {
+  if (result.value("mesher", "") != "cbc3d-paper") {
+    return nullptr;
+  }
+  for (const Json& other : results) {
+    if (other["case"] == result["case"] && other.value("mesher", "") == "cbc3d-mixed" &&
+        can_be_drawn(other)) {
+      return &other;
+    }
+  }
+  return nullptr;
 }
 
 std::string failure_text(const ChildResult& child) {
@@ -63,7 +94,7 @@ int draw_pictures(const fs::path& out_dir, const std::vector<Json>& results, con
     progress.line("no pictures: cbc3d-picture is not built; install VTK's rendering modules and build again");
     return 0;
   }
-  fs::create_directories(out_dir / "figures");
+  fs::create_directories(out_dir / "figures" / "small");
   std::set<std::pair<std::string, std::string>> drawn;
   for (const Json& result : results) {
     const std::pair key{result.value("case", ""), result.value("mesher", "")};
@@ -71,7 +102,7 @@ int draw_pictures(const fs::path& out_dir, const std::vector<Json>& results, con
       continue;
     }
     progress.step("pictures: " + key.first + ", " + key.second, 1);
-    const ChildResult child = draw(out_dir, result, bin_dir);
+    const ChildResult child = draw(out_dir, result, mixed_partner(results, result), bin_dir);
     if (child.end == ChildEnd::not_started) {
       progress.line("no pictures: " + last_line(child.stderr_tail) + "; install xvfb");
       return 0;

@@ -1,7 +1,9 @@
 #include "reports/provenance.hpp"
 
+#include <sys/utsname.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <string>
@@ -23,6 +25,19 @@ std::string cpu_model() {
   return "unknown";
 }
 
+Json load() {
+  double average = 0;
+  return ::getloadavg(&average, 1) == 1 ? Json(average) : Json();
+}
+
+std::string system_name() {
+  utsname names{};
+  return ::uname(&names) == 0 ? std::string(names.sysname) + " " + names.release + " " + names.machine
+                              : "unknown";
+}
+
+}  // namespace
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm broken_down{};
@@ -32,19 +47,21 @@ std::string utc_now() {
   return text;
 }
 
-}  // namespace
-
 Json provenance() {
   Json result;
   result["cbc3d_version"] = kVersion;
   result["git_commit"] = kGitCommit;
+  result["git_dirty"] = kGitDirty;
   result["compiler"] = kCompiler;
+  result["compiler_flags"] = kCompilerFlags;
   result["build_type"] = kBuildType;
   result["libraries"] = {{"itk", kItkVersion}, {"vtk", kVtkVersion}, {"cgal", kCgalVersion}};
   result["cpu"] = cpu_model();
   result["cores"] = std::thread::hardware_concurrency();
   result["memory_bytes"] = static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) *
                            static_cast<std::int64_t>(::sysconf(_SC_PAGESIZE));
+  result["system"] = system_name();
+  result["load_1min"] = load();
   result["utc"] = utc_now();
   return result;
 }

@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
+#include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::reports {
@@ -36,6 +38,7 @@ Json empty_result() {
   result["status"] = nullptr;
   result["reason"] = "";
   result["mesh_file"] = nullptr;
+  result["mesh_sha256"] = nullptr;
   result["counts"] = nulls({"vertices", "tets", "pyramids", "wedges", "hexes"});
   result["quality"] = nulls(
       {"min_dihedral_deg", "max_dihedral_deg", "dihedral_histogram_5deg", "min_scaled_jacobian", "inverted"});
@@ -45,12 +48,14 @@ Json empty_result() {
       nulls({"conforming", "non_manifold_edges", "non_manifold_vertices", "components", "per_label"});
   result["time_s"] = nulls({"mesh", "cpu", "stages"});
   result["peak_rss_bytes"] = nullptr;
+  result["image"] = nulls({"size", "spacing_mm", "labels"});
+  result["mesher_report"] = Json::object();
   result["provenance"] = Json::object();
   return result;
 }
 
 void merge_evaluation(Json& result, const nlohmann::json& evaluation) {
-  for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
+  for (const char* section : {"counts", "quality", "fidelity", "topology", "image"}) {
     if (!evaluation.contains(section) || !evaluation[section].is_object()) {
       continue;
     }
@@ -66,14 +71,26 @@ void append_result(const std::filesystem::path& file, const Json& result) {
   if (descriptor < 0) {
     throw JobError("cannot write '" + file.string() + "': " + std::strerror(errno));
   }
+  const off_t former_size = ::lseek(descriptor, 0, SEEK_END);
   const ssize_t written = ::write(descriptor, line.data(), line.size());
-  const int write_error = errno;
-  const bool synced = ::fsync(descriptor) == 0;
-  ::close(descriptor);
-  if (written != static_cast<ssize_t>(line.size()) || !synced) {
-    throw JobError("cannot write '" + file.string() +
-                   "': " + (written < 0 ? std::strerror(write_error) : "the disk is full or failing"));
+  const int write_error = written < 0 ? errno : ENOSPC;
+  const bool good = written == static_cast<ssize_t>(line.size()) && ::fsync(descriptor) == 0;
+  if (!good && former_size >= 0) {
+    [[maybe_unused]] const int cut = ::ftruncate(descriptor, former_size);  // no half line stays
   }
+  ::close(descriptor);
+  if (!good) {
+    throw JobError("cannot write '" + file.string() + "': " + std::strerror(write_error) +
+                   "; make room and go on with --resume");
+  }
+}
+
+void replace_results(const std::filesystem::path& file, const std::vector<Json>& results) {
+  std::string text;
+  for (const Json& result : results) {
+    text += result.dump() + "\n";
+  }
+  write_text_file(file, text);
 }
 
 std::vector<Json> read_results(const std::filesystem::path& file) {
@@ -90,6 +107,12 @@ std::vector<Json> read_results(const std::filesystem::path& file) {
       throw InputError("'" + file.string() + "': line " + std::to_string(results.size() + 1) +
                        " is no JSON object; remove it");
     }
+    for (const char* key : {"case", "mesher"}) {
+      if (!result.contains(key) || !result[key].is_string()) {
+        throw InputError("'" + file.string() + "': line " + std::to_string(results.size() + 1) + ": \"" +
+                         key + "\" is missing or no text; remove the line and run its job again");
+      }
+    }
     results.push_back(std::move(result));
   }
   return results;
@@ -105,6 +128,13 @@ void drop_torn_line(const std::filesystem::path& file) {
 std::string result_id(const Json& result) {
   return result.value("case", "") + "-" + result.value("mesher", "") + "-t" +
          std::to_string(result.value("threads", 0)) + "-r" + std::to_string(result.value("repeat", 0));
+}
+
+std::string file_stem(const Json& result) {
+  std::string stem = result_id(result);
+  std::replace_if(
+      stem.begin(), stem.end(), [](char c) { return c == ':' || c == '/'; }, '_');
+  return stem;
 }
 
 Json figure(const Json& result, const std::vector<std::string>& path) {

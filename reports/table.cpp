@@ -18,7 +18,19 @@ std::string format_number(double value, int decimals) {
   return text;
 }
 
-std::string cell_text(const Cell& cell, int decimals) {
+Cell number_cell(double value, int decimals, std::optional<double> paper) {
+  return {value, value, value, 1, paper, "", "", decimals};
+}
+
+Cell text_cell(const std::string& text) {
+  return {std::nullopt, 0, 0, 0, std::nullopt, "", text, -1};
+}
+
+std::string cell_text(const Cell& cell, int row_decimals) {
+  if (!cell.text.empty()) {
+    return cell.text;
+  }
+  const int decimals = cell.decimals >= 0 ? cell.decimals : row_decimals;
   std::string text = cell.value ? format_number(*cell.value, decimals) : "-";
   const std::string lowest = format_number(cell.lowest, decimals);
   const std::string highest = format_number(cell.highest, decimals);
@@ -66,9 +78,13 @@ Json to_json(const Table& table) {
       entry["runs"] = cell.runs;
       entry["paper"] = cell.paper ? Json(*cell.paper) : Json();
       entry["reason"] = cell.reason;
+      if (!cell.text.empty()) {
+        entry["text"] = cell.text;
+      }
       cells[table.columns[column]] = std::move(entry);
     }
-    rows.push_back({{"case", row.case_name}, {"figure", row.figure}, {"cells", std::move(cells)}});
+    rows.push_back(
+        {{table.row_header, row.case_name}, {table.figure_header, row.figure}, {"cells", std::move(cells)}});
   }
   return {
       {"name", table.name}, {"title", table.title}, {"columns", table.columns}, {"rows", std::move(rows)}};

@@ -16,8 +16,14 @@ struct Cell {
   double highest = 0;           ///< of the runs
   int runs = 0;                 ///< that gave the figure
   std::optional<double> paper;  ///< the paper's figure for the same thing
-  std::string reason;           ///< why the figure, or some run of it, is not there
+  std::string reason;           ///< why the figure, or some run of it, is not there; or how it was taken
+  std::string text;             ///< shown instead of the figure; empty: the figure is
+  int decimals = -1;            ///< of this cell; -1: those of its row
 };
+
+/// A cell of one number without runs, or of a text.
+Cell number_cell(double value, int decimals, std::optional<double> paper = std::nullopt);
+Cell text_cell(const std::string& text);
 
 struct Row {
   std::string case_name;
@@ -31,6 +37,8 @@ struct Table {
   std::string title;  ///< one line
   std::vector<std::string> columns;
   std::vector<Row> rows;
+  std::string row_header = "case";       ///< of the rows' first column
+  std::string figure_header = "figure";  ///< of the second
 };
 
 /// A number with that many decimals and commas between the thousands.
@@ -53,6 +61,23 @@ class Footnotes {
   const Table& table_;
   std::vector<std::string> notes_;
 };
+
+/// The table as texts, header first, with `mark(number)` after a cell that has a footnote.
+template <class Mark>
+std::vector<std::vector<std::string>> texts_of(const Table& table, const Footnotes& footnotes, Mark mark) {
+  std::vector<std::string> header{table.row_header, table.figure_header};
+  header.insert(header.end(), table.columns.begin(), table.columns.end());
+  std::vector<std::vector<std::string>> rows{header};
+  for (const Row& row : table.rows) {
+    std::vector<std::string> texts{row.case_name, row.figure};
+    for (std::size_t column = 0; column < row.cells.size(); ++column) {
+      const std::size_t number = footnotes.number(row, column);
+      texts.push_back(cell_text(row.cells[column], row.decimals) + (number > 0 ? mark(number) : ""));
+    }
+    rows.push_back(std::move(texts));
+  }
+  return rows;
+}
 
 /// A Markdown table, padded so that it also reads well as plain text, with the reasons beneath.
 std::string to_markdown(const Table& table);

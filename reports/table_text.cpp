@@ -2,41 +2,11 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "reports/markup.hpp"
 #include "reports/table.hpp"
 
 namespace cbc3d::reports {
 namespace {
-
-using TextRow = std::vector<std::string>;
-
-/// The table as texts, header first, with `mark(number)` after a cell that has a footnote.
-template <class Mark>
-std::vector<TextRow> texts_of(const Table& table, const Footnotes& footnotes, Mark mark) {
-  TextRow header{"case", "figure"};
-  header.insert(header.end(), table.columns.begin(), table.columns.end());
-  std::vector<TextRow> rows{header};
-  for (const Row& row : table.rows) {
-    TextRow texts{row.case_name, row.figure};
-    for (std::size_t column = 0; column < row.cells.size(); ++column) {
-      const std::size_t number = footnotes.number(row, column);
-      texts.push_back(cell_text(row.cells[column], row.decimals) + (number > 0 ? mark(number) : ""));
-    }
-    rows.push_back(std::move(texts));
-  }
-  return rows;
-}
-
-std::string replace_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
-/// A reason may hold anything that a mesher printed: it stays on one line and closes no table cell.
-std::string markdown_text(const std::string& text) {
-  return replace_all(replace_all(text, "\n", " "), "|", "\\|");
-}
 
 std::string latex_text(const std::string& text) {
   std::string escaped;
@@ -98,7 +68,9 @@ std::vector<CsvColumn> csv_columns(const Table& table) {
       return std::any_of(table.rows.begin(), table.rows.end(),
                          [&](const Row& row) { return has(row.cells[column]); });
     };
-    columns.push_back({name, column, [](const Cell& c) { return c.value ? csv_number(*c.value) : "-"; }});
+    columns.push_back({name, column, [](const Cell& c) {
+                         return !c.text.empty() ? c.text : c.value ? csv_number(*c.value) : "-";
+                       }});
     if (any([](const Cell& c) { return c.runs > 1; })) {
       columns.push_back(
           {name + " min", column, [](const Cell& c) { return c.value ? csv_number(c.lowest) : "-"; }});
@@ -118,28 +90,46 @@ std::vector<CsvColumn> csv_columns(const Table& table) {
 
 }  // namespace
 
+namespace {
+
+/// Characters of UTF-8: bytes that do not continue one.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0U) != 0x80U; }));
+}
+
+/// A line of a Markdown table; the first two columns are set left.
+std::string markdown_line(const std::vector<std::string>& entries, const std::vector<std::size_t>& widths) {
+  std::string text = "|";
+  for (std::size_t column = 0; column < widths.size(); ++column) {
+    const std::string entry = markdown_text(entries[column]);
+    const std::string padding(widths[column] - width_of(entry), ' ');
+    text += " " + (column < 2 ? entry + padding : padding + entry) + " |";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
 std::string to_markdown(const Table& table) {
   const Footnotes footnotes(table);
   const auto rows =
       texts_of(table, footnotes, [](std::size_t number) { return " [" + std::to_string(number) + "]"; });
   std::vector<std::size_t> widths(rows.front().size(), 3);
-  for (const TextRow& row : rows) {
+  for (const std::vector<std::string>& row : rows) {
     for (std::size_t column = 0; column < row.size(); ++column) {
-      widths[column] = std::max(widths[column], markdown_text(row[column]).size());
+      widths[column] = std::max(widths[column], width_of(markdown_text(row[column])));
     }
   }
   std::string text = "### " + table.title + "\n\n";
-  for (std::size_t line = 0; line < rows.size(); ++line) {
-    std::string rule = "|";
-    text += "|";
-    for (std::size_t column = 0; column < widths.size(); ++column) {
-      const std::string entry = markdown_text(rows[line][column]);
-      const std::string padding(widths[column] - entry.size(), ' ');
-      const bool left = column < 2;
-      text += " " + (left ? entry + padding : padding + entry) + " |";
-      rule += left ? std::string(widths[column] + 2, '-') + "|" : std::string(widths[column] + 1, '-') + ":|";
-    }
-    text += "\n" + (line == 0 ? rule + "\n" : "");
+  text += markdown_line(rows.front(), widths) + "|";
+  for (std::size_t column = 0; column < widths.size(); ++column) {
+    text +=
+        column < 2 ? std::string(widths[column] + 2, '-') + "|" : std::string(widths[column] + 1, '-') + ":|";
+  }
+  text += "\n";
+  for (std::size_t line = 1; line < rows.size(); ++line) {
+    text += markdown_line(rows[line], widths);
   }
   for (std::size_t note = 0; note < footnotes.notes().size(); ++note) {
     text += (note == 0 ? "\n[" : "[") + std::to_string(note + 1) + "] " +
@@ -172,7 +162,7 @@ std::string to_latex(const Table& table) {
 
 std::string to_csv(const Table& table) {
   const std::vector<CsvColumn> columns = csv_columns(table);
-  std::string text = "case,figure";
+  std::string text = csv_text(table.row_header) + "," + csv_text(table.figure_header);
   for (const CsvColumn& column : columns) {
     text += "," + csv_text(column.header);
   }

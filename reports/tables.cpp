@@ -8,6 +8,8 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "reports/columns.hpp"
+#include "reports/statistics.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -100,46 +102,11 @@ std::string text_of(const Json& result, const char* key) {
   return result.value(key, "");
 }
 
-/// Meshers by name, in the order of their first line; with "(N threads)" for those that ran with several
-/// counts.
-class Columns {
- public:
-  explicit Columns(const std::vector<Json>& results) {
-    for (const Json& result : results) {
-      threads_[text_of(result, "mesher")].insert(result.value("threads", 1));
-    }
-    for (const Json& result : results) {
-      const std::string name = name_of(result);
-      if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
-        names_.push_back(name);
-      }
-    }
-  }
-  [[nodiscard]] std::string name_of(const Json& result) const {
-    const std::string mesher = text_of(result, "mesher");
-    const int threads = result.value("threads", 1);
-    return threads_.at(mesher).size() == 1
-               ? mesher
-               : mesher + " (" + std::to_string(threads) + (threads == 1 ? " thread)" : " threads)");
-  }
-  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-
- private:
-  std::map<std::string, std::set<int>> threads_;
-  std::vector<std::string> names_;
-};
-
 /// Status and reason of a line that is not ok.
 std::string failure_of(const Json& result) {
   const std::string status = text_of(result, "status");
   const std::string reason = text_of(result, "reason");
   return reason.empty() ? status : status + ": " + reason;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 /// `runs`: the lines of one case and column.
@@ -155,12 +122,16 @@ Cell cell_of(const std::vector<const Json*>& runs, const Measure& measure) {
       values.push_back(*value);
     }
   }
+  const bool whole_process = measure.name == "time (s)" && !runs.empty() &&
+                             figure(*runs.front(), {"time_s", "includes_files"}) == true;
   if (runs.empty()) {
     cell.reason = "not run";
   } else if (failures > 0 && failures < runs.size()) {
     cell.reason = std::to_string(failures) + " of " + std::to_string(runs.size()) + " runs " + cell.reason;
   }
   if (!values.empty()) {
+    cell.reason +=
+        whole_process && cell.reason.empty() ? "whole process, reading and writing files included" : "";
     cell.value = median(values);
     cell.lowest = *std::min_element(values.begin(), values.end());
     cell.highest = *std::max_element(values.begin(), values.end());
@@ -208,30 +179,15 @@ std::optional<double> paper_figure(const std::vector<cases::Case>& cases,
   return found == cases.end() ? std::nullopt : paper_figure(*found, *runs.front(), key);
 }
 
-std::vector<std::string> case_names(const std::vector<Json>& results) {
-  std::vector<std::string> names;
-  for (const Json& result : results) {
-    if (std::find(names.begin(), names.end(), text_of(result, "case")) == names.end()) {
-      names.push_back(text_of(result, "case"));
-    }
-  }
-  return names;
-}
-
 Table build_table(const TablePlan& plan, const std::vector<Json>& results,
                   const std::vector<cases::Case>& cases) {
   const Columns columns(results);
-  Table table{plan.name, plan.title, columns.names(), {}};
+  Table table{plan.name, plan.title, columns.names(), {}, "case", "figure"};
   for (const std::string& case_name : case_names(results)) {
     for (const Measure& measure : plan.measures) {
       Row row{case_name, measure.name, measure.decimals, {}};
       for (const std::string& column : table.columns) {
-        std::vector<const Json*> runs;
-        for (const Json& result : results) {
-          if (text_of(result, "case") == case_name && columns.name_of(result) == column) {
-            runs.push_back(&result);
-          }
-        }
+        const std::vector<const Json*> runs = columns.runs(case_name, column);
         row.cells.push_back(cell_of(runs, measure));
         row.cells.back().paper = paper_figure(cases, runs, measure.paper_key);
       }

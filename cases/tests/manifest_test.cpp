@@ -19,11 +19,13 @@ json good_manifest() {
           {"derive", {{"fill_holes", true}}},
           {"parameters", {{"cgal", {{"cell-size", 2.5}, {"mode", "x"}}}}},
           {"parameter_sets", {{"fine", {{"cgal", {{"cell-size", 1}}}}}}},
+          {"deformation_pattern", {{"pattern", "face"}, {"image", "as it is"}, {"before", "one"}}},
           {"paper", {{"note", "none"}}}};
 }
 
 json phantom_manifest() {
   json manifest = good_manifest();
+  manifest.erase("deformation_pattern");
   manifest["image"] = {{"phantom",
                         {{"name", "organs"},
                          {"size", {16, 17, 18}},
@@ -66,6 +68,10 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
   EXPECT_EQ(cases[1].parameter_sets.at("fine").at("cgal").at("cell-size"), "1");
   EXPECT_EQ(cases[1].paper.at("note"), "none");
+  ASSERT_TRUE(cases[1].deformation_pattern);
+  EXPECT_EQ(cases[1].deformation_pattern->pattern, "face");
+  EXPECT_EQ(cases[1].deformation_pattern->image, "as it is");
+  EXPECT_EQ(cases[1].deformation_pattern->before, "one");
   ASSERT_TRUE(cases[0].phantom);
   EXPECT_FALSE(cases[0].image_file);
   EXPECT_EQ(cases[0].phantom->name, "organs");
@@ -104,6 +110,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadKey{"/paper", {1, 2}, "\"paper\""}, BadKey{"/derive", true, "\"derive\""},
                     BadKey{"/derive/fill_holes", 1, "\"derive.fill_holes\""},
                     BadKey{"/derive", {{"dilate", true}}, "\"derive.dilate\""},
+                    BadKey{"/deformation_pattern", "face", "\"deformation_pattern\""},
+                    BadKey{"/deformation_pattern/pattern", "corner", "vertex, edge, face, no"},
+                    BadKey{"/deformation_pattern/before", "ghost", "which no manifest has"},
                     BadKey{"/image/phantom/name", "ghost", "organs, shells"},
                     BadKey{"/image/phantom/size", {16, 17}, "\"image.phantom.size\""},
                     BadKey{"/image/phantom/size", {16, 17, 1.5}, "\"image.phantom.size\""},

@@ -32,6 +32,7 @@ TEST(Sha256, KnownDigests) {
   folder.write("nothing", "");
   EXPECT_EQ(sha256_of_file(folder.path() / "abc"), kShaOfAbc);
   EXPECT_EQ(sha256_of_file(folder.path() / "nothing"), kShaOfNothing);
+  EXPECT_EQ(sha256_of_text("abc"), kShaOfAbc);
   folder.write("million", std::string(1000000, 'a'));
   EXPECT_EQ(sha256_of_file(folder.path() / "million"),
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");

@@ -13,25 +13,44 @@
 namespace {
 
 struct Options {
-  std::string mesh, image, cut, surface;
+  std::string mesh, image, cut, surface, close_up, overlay, beside, mixed_mesh, mixed_caption, small;
   cbc3d::reports::PictureOptions picture;
   int threads = 0;
   bool quiet = false;
 };
 
-int draw(const Options& options) {
+/// A kind of picture of one mesh.
+struct Kind {
+  const char* name;
+  const std::string& png;
+  void (*draw)(const cbc3d::Mesh&, const cbc3d::LabelImage&, const cbc3d::reports::PictureOptions&,
+               const std::filesystem::path&);
+};
+
+int draw(Options options) {
+  options.picture.small_dir = options.small;
   cbc3d::set_thread_count(options.threads);
   cbc3d::Progress progress(options.quiet);
   progress.step("reading", 0);
   const cbc3d::Mesh mesh = cbc3d::read_mesh(options.mesh);
   const cbc3d::LabelImage image = cbc3d::read_label_image(options.image);
-  if (!options.cut.empty()) {
-    progress.step("cut section", 0.4);
-    cbc3d::reports::draw_cut_section(mesh, image, options.picture, options.cut);
+  const std::vector<Kind> kinds{{"cut section", options.cut, cbc3d::reports::draw_cut_section},
+                                {"surface", options.surface, cbc3d::reports::draw_surface},
+                                {"close-up", options.close_up, cbc3d::reports::draw_close_up},
+                                {"overlay", options.overlay, cbc3d::reports::draw_overlay}};
+  double share = 0.2;
+  for (const Kind& kind : kinds) {
+    if (!kind.png.empty()) {
+      progress.step(kind.name, share += 0.15);
+      kind.draw(mesh, image, options.picture, kind.png);
+    }
   }
-  if (!options.surface.empty()) {
-    progress.step("surface", 0.7);
-    cbc3d::reports::draw_surface(mesh, image, options.picture, options.surface);
+  if (!options.beside.empty()) {
+    progress.step("beside", 0.9);
+    cbc3d::reports::PictureOptions mixed = options.picture;
+    mixed.caption = options.mixed_caption;
+    cbc3d::reports::draw_beside(mesh, cbc3d::read_mesh(options.mixed_mesh), image, options.picture, mixed,
+                                options.beside);
   }
   return cbc3d::kExitSuccess;
 }
@@ -48,6 +67,13 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--cut", options.cut, "PNG file of the cut section");
   app.add_option("--surface", options.surface, "PNG file of the surface");
+  app.add_option("--close-up", options.close_up, "PNG file of a part of the surface, six times as near");
+  app.add_option("--overlay", options.overlay, "PNG file of the mesh's interfaces over the segmentation");
+  CLI::Option* beside =
+      app.add_option("--beside", options.beside, "PNG file of two cut sections side by side");
+  beside->needs(app.add_option("--mixed-mesh", options.mixed_mesh, "the other mesh of --beside"));
+  app.add_option("--mixed-caption", options.mixed_caption, "text above the other mesh");
+  app.add_option("--small", options.small, "folder for copies as JPEG of half the size");
   app.add_option("--caption", options.picture.caption, "text above the picture");
   app.add_option("--size", options.picture.size_px, "width and height, pixels")
       ->check(CLI::Range(100, 8000))

@@ -2,12 +2,18 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkCutter.h>
+#include <vtkDataObject.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkExtractGeometry.h>
 #include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkImageResize.h>
 #include <vtkIntArray.h>
+#include <vtkJPEGWriter.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -20,13 +26,17 @@
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkThreshold.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
@@ -134,6 +144,8 @@ void add_caption(vtkRenderer* renderer, const PictureOptions& options) {
   text->SetInput(options.caption.c_str());
   text->GetTextProperty()->SetFontSize(options.size_px / 40);
   text->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+  text->GetTextProperty()->SetBackgroundColor(1, 1, 1);
+  text->GetTextProperty()->SetBackgroundOpacity(0.8);
   text->GetTextProperty()->SetVerticalJustificationToTop();
   text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   text->SetPosition(0.02, 0.98);
@@ -163,29 +175,59 @@ void add_legend(vtkRenderer* renderer, const LabelImage& image, const PictureOpt
   }
 }
 
-void write_png(vtkRenderer* renderer, const PictureOptions& options, const std::filesystem::path& png) {
+/// A copy of half the width as JPEG: a page of many loads fast.
+void write_small(vtkImageData* pixels, const std::filesystem::path& png, const PictureOptions& options) {
+  constexpr int kQuality = 82;
+  constexpr int kDivisor = 2;
+  std::array<int, 3> size{};
+  pixels->GetDimensions(size.data());
+  vtkNew<vtkImageResize> resize;
+  resize->SetInputData(pixels);
+  resize->SetOutputDimensions(size[0] / kDivisor, size[1] / kDivisor, 1);
+  AtomicFile file(options.small_dir / png.stem().concat(".jpg"));
+  vtkNew<vtkJPEGWriter> writer;
+  writer->SetInputConnection(resize->GetOutputPort());
+  writer->SetQuality(kQuality);
+  writer->SetFileName(file.temporary().c_str());
+  writer->Write();
+  file.commit();
+}
+
+/// Draws the renderers side by side.
+void write_png(const std::vector<vtkRenderer*>& renderers, const PictureOptions& options,
+               const std::filesystem::path& png) {
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(8);
-  window->SetSize(options.size_px, options.size_px);
-  window->AddRenderer(renderer);
+  const int count = static_cast<int>(renderers.size());
+  window->SetSize(count * options.size_px, options.size_px);
+  for (int n = 0; n < count; ++n) {
+    renderers[static_cast<std::size_t>(n)]->SetViewport(static_cast<double>(n) / count, 0,
+                                                        static_cast<double>(n + 1) / count, 1);
+    window->AddRenderer(renderers[static_cast<std::size_t>(n)]);
+  }
   window->Render();
   vtkNew<vtkWindowToImageFilter> pixels;
   pixels->SetInput(window);
   pixels->ReadFrontBufferOff();
+  pixels->Update();
   AtomicFile file(png);
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(pixels->GetOutputPort());
+  writer->SetInputData(pixels->GetOutput());
   writer->SetFileName(file.temporary().c_str());
   writer->Write();
   if (!std::filesystem::exists(file.temporary()) || std::filesystem::file_size(file.temporary()) == 0) {
     throw JobError("cannot write '" + png.string() + "'");
   }
   file.commit();
+  if (!options.small_dir.empty()) {
+    write_small(pixels->GetOutput(), png, options);
+  }
 }
 
 /// Looks at the middle of the labelled voxels, which fill the picture.
-void set_camera(vtkRenderer* renderer, const View& view, const Vec3& towards_eye, const Vec3& up) {
+void set_camera(vtkRenderer* renderer, const View& view, const Vec3& towards_eye, const Vec3& up,
+                double zoom = 1) {
   const Vec3 right = up.cross(towards_eye).normalized();
   const Vec3 upright = towards_eye.cross(right);
   double half_size_mm = 0;
@@ -205,7 +247,7 @@ void set_camera(vtkRenderer* renderer, const View& view, const Vec3& towards_eye
   camera->SetViewUp(up.x, up.y, up.z);
   camera->ParallelProjectionOn();
   constexpr double kMargin = 1.12;  // for the caption above and the mesh's own overhang
-  camera->SetParallelScale(kMargin * half_size_mm);
+  camera->SetParallelScale(kMargin * half_size_mm / zoom);
   camera->SetClippingRange(0.5 * distance_mm, 2 * distance_mm);
 }
 
@@ -216,6 +258,118 @@ vtkNew<vtkRenderer> renderer_of(vtkActor* actor, const LabelImage& image, const 
   add_caption(renderer, options);
   add_legend(renderer, image, options);
   return renderer;
+}
+
+/// Obliquely from the front.
+Vec3 oblique_view(const View& view) {
+  return (-0.45 * view.axes.column(0) - 0.8 * view.axes.column(1) + 0.4 * view.axes.column(2)).normalized();
+}
+
+/// Centre of the labelled voxel that is nearest to an eye far away.
+Vec3 nearest_voxel_mm(const LabelImage& image, const Vec3& towards_eye) {
+  Vec3 nearest;
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (std::size_t offset = 0; offset < image.voxels.size(); ++offset) {
+    if (image.voxels[offset] == kBackground) {
+      continue;
+    }
+    const Index3 index = image.frame.index_of(offset);
+    const Vec3 centre = image.frame.to_physical(image.frame.local_centre(index[0], index[1], index[2]));
+    if (centre.dot(towards_eye) > farthest) {
+      farthest = centre.dot(towards_eye);
+      nearest = centre;
+    }
+  }
+  return nearest;
+}
+
+vtkNew<vtkPlane> cut_plane(const View& view) {
+  const Vec3 towards_eye = -view.axes.column(2);
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(view.centre_mm.x, view.centre_mm.y, view.centre_mm.z);
+  plane->SetNormal(towards_eye.x, towards_eye.y, towards_eye.z);
+  return plane;
+}
+
+vtkNew<vtkRenderer> cut_scene(const Mesh& mesh, const LabelImage& image, const PictureOptions& options) {
+  const View view = view_of(image);
+  vtkNew<vtkExtractGeometry> half;
+  half->SetInputData(grid_of(mesh, image));
+  half->SetImplicitFunction(cut_plane(view));
+  half->ExtractInsideOn();
+  half->ExtractBoundaryCellsOn();
+  half->Update();
+  const vtkNew<vtkActor> actor = surface_actor(half->GetOutput(), image);
+  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->SetEdgeColor(0.2, 0.2, 0.22);
+  actor->GetProperty()->SetAmbient(0.35);
+  actor->GetProperty()->SetDiffuse(0.65);
+  vtkNew<vtkRenderer> renderer = renderer_of(actor, image, options);
+  set_camera(renderer, view, -view.axes.column(2), -view.axes.column(1));
+  return renderer;
+}
+
+/// The labelled voxels that the cut plane goes through, as squares a little behind the plane.
+vtkNew<vtkActor> voxel_actor(const LabelImage& image, const View& view) {
+  const ImageFrame& frame = image.frame;
+  const double slice = frame.to_local(view.centre_mm).z / frame.spacing_mm.z;
+  const int k = std::clamp(static_cast<int>(std::lround(slice)), 0, frame.size[2] - 1);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> squares;
+  vtkNew<vtkIntArray> colours;
+  for (int j = 0; j < frame.size[1]; ++j) {
+    for (int i = 0; i < frame.size[0]; ++i) {
+      if (image.at(i, j, k) == kBackground) {
+        continue;
+      }
+      squares->InsertNextCell(4);
+      for (const auto& [x, y] :
+           {std::pair{-.5, -.5}, std::pair{.5, -.5}, std::pair{.5, .5}, std::pair{-.5, .5}}) {
+        const Vec3 local{(i + x) * frame.spacing_mm.x, (j + y) * frame.spacing_mm.y,
+                         (slice + 0.25) * frame.spacing_mm.z};
+        const Vec3 corner = frame.to_physical(local);
+        squares->InsertCellPoint(points->InsertNextPoint(corner.x, corner.y, corner.z));
+      }
+      colours->InsertNextValue(image.at(i, j, k));
+    }
+  }
+  vtkNew<vtkPolyData> slice_of_voxels;
+  slice_of_voxels->SetPoints(points);
+  slice_of_voxels->SetPolys(squares);
+  slice_of_voxels->GetCellData()->SetScalars(colours);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(slice_of_voxels);
+  mapper->SetLookupTable(colour_table(image));
+  mapper->UseLookupTableScalarRangeOn();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetOpacity(0.65);
+  return actor;
+}
+
+/// The lines in which the surface of one material's elements crosses the cut plane.
+vtkNew<vtkActor> outline_actor(vtkUnstructuredGrid* grid, int material, const View& view) {
+  vtkNew<vtkThreshold> part;
+  part->SetInputData(grid);
+  part->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, kMaterialArray);
+  part->SetLowerThreshold(material);
+  part->SetUpperThreshold(material);
+  part->SetThresholdFunction(vtkThreshold::THRESHOLD_BETWEEN);
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputConnection(part->GetOutputPort());
+  vtkNew<vtkCutter> cutter;
+  cutter->SetInputConnection(surface->GetOutputPort());
+  cutter->SetCutFunction(cut_plane(view));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(cutter->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.05, 0.05, 0.3);
+  actor->GetProperty()->SetLineWidth(2);
+  actor->GetProperty()->LightingOff();
+  return actor;
 }
 
 }  // namespace
@@ -244,25 +398,48 @@ View view_of(const LabelImage& image) {
 
 void draw_cut_section(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
                       const std::filesystem::path& png) {
+  const vtkNew<vtkRenderer> renderer = cut_scene(mesh, image, options);
+  write_png({renderer}, options, png);
+}
+
+void draw_beside(const Mesh& left, const Mesh& right, const LabelImage& image,
+                 const PictureOptions& left_options, const PictureOptions& right_options,
+                 const std::filesystem::path& png) {
+  const vtkNew<vtkRenderer> first = cut_scene(left, image, left_options);
+  const vtkNew<vtkRenderer> second = cut_scene(right, image, right_options);
+  write_png({first, second}, left_options, png);
+}
+
+void draw_overlay(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
+                  const std::filesystem::path& png) {
   const View view = view_of(image);
   const Vec3 towards_eye = -view.axes.column(2);
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(view.centre_mm.x, view.centre_mm.y, view.centre_mm.z);
-  plane->SetNormal(towards_eye.x, towards_eye.y, towards_eye.z);
-  vtkNew<vtkExtractGeometry> half;
-  half->SetInputData(grid_of(mesh, image));
-  half->SetImplicitFunction(plane);
-  half->ExtractInsideOn();
-  half->ExtractBoundaryCellsOn();
-  half->Update();
-  const vtkNew<vtkActor> actor = surface_actor(half->GetOutput(), image);
+  const vtkNew<vtkActor> voxels = voxel_actor(image, view);
+  const vtkNew<vtkRenderer> renderer = renderer_of(voxels, image, options);
+  const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh, image);
+  for (std::size_t material = 0; material < image.labels.size(); ++material) {
+    renderer->AddActor(outline_actor(grid, static_cast<int>(material), view));
+  }
+  set_camera(renderer, view, towards_eye, -view.axes.column(1));
+  write_png({renderer}, options, png);
+}
+
+void draw_close_up(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
+                   const std::filesystem::path& png) {
+  constexpr double kZoom = 6;
+  View view = view_of(image);
+  const vtkNew<vtkActor> actor = surface_actor(grid_of(mesh, image), image);
+  actor->GetProperty()->SetAmbient(0.15);
+  actor->GetProperty()->SetDiffuse(0.85);
   actor->GetProperty()->EdgeVisibilityOn();
   actor->GetProperty()->SetEdgeColor(0.2, 0.2, 0.22);
-  actor->GetProperty()->SetAmbient(0.35);
-  actor->GetProperty()->SetDiffuse(0.65);
   const vtkNew<vtkRenderer> renderer = renderer_of(actor, image, options);
-  set_camera(renderer, view, towards_eye, -view.axes.column(1));
-  write_png(renderer, options, png);
+  const Vec3 oblique = oblique_view(view);
+  view.centre_mm = nearest_voxel_mm(image, oblique);
+  set_camera(renderer, view, oblique, view.axes.column(2), kZoom);
+  // What lies before the voxel's plane is part of the picture as well.
+  renderer->GetActiveCamera()->SetClippingRange(0.1 * view.extent_mm.norm(), 4 * view.extent_mm.norm());
+  write_png({renderer}, options, png);
 }
 
 void draw_surface(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
@@ -272,10 +449,9 @@ void draw_surface(const Mesh& mesh, const LabelImage& image, const PictureOption
   actor->GetProperty()->SetAmbient(0.15);
   actor->GetProperty()->SetDiffuse(0.85);
   const vtkNew<vtkRenderer> renderer = renderer_of(actor, image, options);
-  const Vec3 oblique =
-      (-0.45 * view.axes.column(0) - 0.8 * view.axes.column(1) + 0.4 * view.axes.column(2)).normalized();
+  const Vec3 oblique = oblique_view(view);
   set_camera(renderer, view, oblique, view.axes.column(2));
-  write_png(renderer, options, png);
+  write_png({renderer}, options, png);
 }
 
 }  // namespace cbc3d::reports

@@ -10,8 +10,9 @@
 namespace cbc3d::reports {
 
 struct PictureOptions {
-  int size_px = 1200;   ///< width and height
-  std::string caption;  ///< shown above the picture
+  int size_px = 1200;               ///< width and height
+  std::string caption;              ///< shown above the picture
+  std::filesystem::path small_dir;  ///< where a small copy as JPEG goes, for pages; empty: none
 };
 
 /// Where to look from. It depends on the image alone, so that all meshes of an image are seen alike.
@@ -28,6 +29,21 @@ View view_of(const LabelImage& image);
 /// feet. Throws JobError when the picture cannot be written.
 void draw_cut_section(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
                       const std::filesystem::path& png);
+
+/// Draws the outer surface with the elements' edges, six times as near as draw_surface, around the labelled
+/// voxel that is nearest to the eye. Throws as above.
+void draw_close_up(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
+                   const std::filesystem::path& png);
+
+/// Draws where the interfaces and the surface of the mesh cross the plane of draw_cut_section, as lines over
+/// the image's voxels in that plane. Throws as above.
+void draw_overlay(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,
+                  const std::filesystem::path& png);
+
+/// Draws the cut sections of two meshes side by side. Throws as above.
+void draw_beside(const Mesh& left, const Mesh& right, const LabelImage& image,
+                 const PictureOptions& left_options, const PictureOptions& right_options,
+                 const std::filesystem::path& png);
 
 /// Draws the outer surface, coloured by label, seen obliquely from the front. Throws as above.
 void draw_surface(const Mesh& mesh, const LabelImage& image, const PictureOptions& options,

@@ -1,11 +1,12 @@
 // A child that behaves as its first argument says: exit CODE, crash, sleep, allocate, spawn PIDFILE, say
-// TEXT, env NAME, mesh OUT REPORT.
+// TEXT, env NAME, mesh OUT REPORT, and ill ways of meshing.
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -43,13 +44,52 @@ int spawn(const std::string& file, bool stay) {
   return 0;
 }
 
-int write_tet(const std::string& mesh_file, const std::string& report_file) {
+/// Leaves a process in a session of its own, sleeping.
+int spawn_daemon(const std::string& file) {
+  const pid_t process = ::fork();
+  if (process == 0) {
+    ::setsid();
+    std::ofstream(file) << ::getpid() << std::endl;
+    sleep_long();
+    std::_Exit(0);
+  }
+  while (!std::ifstream(file)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return 0;
+}
+
+/// Waits for a grandchild that allocates.
+int spawn_allocate() {
+  if (::fork() == 0) {
+    std::_Exit(allocate());
+  }
+  sleep_long();
+  return 0;
+}
+
+int write_tet(const std::string& mesh_file, const std::string& report_file, int label = 1) {
   cbc3d::Mesh mesh;
   mesh.points = {{0.5, 0.5, 0.5}, {6.5, 0.5, 0.5}, {0.5, 6.5, 0.5}, {0.5, 0.5, 6.5}};
-  mesh.tets.add({0, 1, 2, 3}, 1);
+  mesh.tets.add({0, 1, 2, 3}, label);
   cbc3d::write_mesh(mesh, mesh_file);
   std::ofstream(report_file)
       << R"({"status":"ok","reason":"","seconds":{"total":1.5,"cpu":1.25,"stages":{"all":1.5}},"peak_rss_bytes":99})";
+  return 0;
+}
+
+/// A mesh file that stops in the middle.
+int write_half_a_tet(const std::string& mesh_file, const std::string& report_file) {
+  write_tet(mesh_file, report_file);
+  std::filesystem::resize_file(mesh_file, std::filesystem::file_size(mesh_file) / 2);
+  return 0;
+}
+
+int write_garbage(const std::string& mesh_file) {
+  std::ofstream out(mesh_file, std::ios::binary);
+  for (int n = 0; n < 4096; ++n) {
+    out.put(static_cast<char>(n * 37 % 251));
+  }
   return 0;
 }
 
@@ -68,8 +108,15 @@ int main(int argc, char** argv) {
   if (mode == "allocate") return allocate();
   if (mode == "spawn") return spawn(first, false);
   if (mode == "spawn-and-stay") return spawn(first, true);
+  if (mode == "spawn-daemon") return spawn_daemon(first);
+  if (mode == "spawn-allocate") return spawn_allocate();
   if (mode == "fail" && argc > 3) return fail(argv[3]);
   if (mode == "mesh" && argc > 3) return write_tet(first, argv[3]);
+  if (mode == "mesh-and-daemon" && argc > 3)
+    return spawn_daemon(std::string(argv[3]) + ".pid"), write_tet(first, argv[3]);
+  if (mode == "wrong-label" && argc > 3) return write_tet(first, argv[3], 99);
+  if (mode == "truncated" && argc > 3) return write_half_a_tet(first, argv[3]);
+  if (mode == "garbage") return write_garbage(first);
   if (mode == "say") return std::fprintf(stderr, "%s\n", first.c_str()) < 0;
   if (mode == "flood") {
     for (int n = 0; n < 20000; ++n) std::fprintf(stderr, "line %d of the flood\n", n);

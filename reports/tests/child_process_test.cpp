@@ -127,6 +127,21 @@ TEST(ChildProcess, NothingSurvivesATerminatedRunner) {
   expect_no_survivor_after(SIGTERM);
 }
 
+TEST(ChildProcess, NothingSurvivesARunnerKilledOutright) {
+  expect_no_survivor_after(SIGKILL);
+}
+
+TEST(ChildProcess, AProcessThatLeftGroupAndSessionIsEndedToo) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run({"spawn-daemon", folder.path() / "process"}).end, ChildEnd::exited);
+  EXPECT_TRUE(ends(read_process(folder.path() / "process")));
+}
+
+TEST(ChildProcess, MemoryOfAGrandchildCounts) {
+  const ChildResult result = run({"spawn-allocate"}, 60, std::int64_t{256} << 20);
+  EXPECT_EQ(result.end, ChildEnd::out_of_memory);
+}
+
 TEST(ChildProcess, FindsTheLastLine) {
   EXPECT_EQ(last_line("one\ntwo\n\n  \n"), "two");
   EXPECT_EQ(last_line("bar 10 %\rbar 20 %"), "bar 20 %");

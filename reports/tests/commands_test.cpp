@@ -62,6 +62,13 @@ TEST(Commands, BadInputIsOneLineAndExitCodeTwo) {
        folder.path() / "out"},
       {"run", "--suite", "demo", "--data", "/nowhere", "--out", folder.path() / "out"},
       {"tables", folder.path()},
+      {"report", folder.path(), "--out", folder.path() / "r.html"},
+      {"report", folder.path(), "--out", "/nowhere/r.html"},
+      {"merge", folder.path(), "--out", folder.path() / "joint"},
+      {"sweep", "--case", "nonsense", "--out", folder.path() / "out"},
+      {"gate", folder.path(), "--baseline", folder.path() / "b.json"},
+      {"run", "--suite", "demo", "--shard", "3/2", "--out", folder.path() / "out"},
+      {"run", "--suite", "demo", "--shard", "x", "--out", folder.path() / "out"},
       {"evaluate", folder.path() / "none.vtu", folder.path() / "none.nrrd"},
       {"phantom", "nonsense", "--out", folder.path() / "p.nrrd"}};
   for (const auto& call : calls) {
@@ -85,7 +92,8 @@ TEST(Commands, PhantomHonoursSizeAndSpacing) {
 }
 
 TEST(Commands, EveryCommandHasHelp) {
-  for (const char* command : {"list", "run", "evaluate", "tables", "phantom"}) {
+  for (const char* command :
+       {"list", "run", "sweep", "gate", "report", "merge", "evaluate", "tables", "phantom"}) {
     EXPECT_EQ(bench({command, "--help"}).exit_code, 0) << command;
   }
   for (const char* what : {"meshers", "cases", "suites"}) {

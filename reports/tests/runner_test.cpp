@@ -4,6 +4,8 @@
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
+#include "reports/folder_lock.hpp"
+#include "reports/merge.hpp"
 #include "reports/runner.hpp"
 #include "reports/tests/folder.hpp"
 
@@ -131,6 +133,113 @@ TEST_F(Runner, ResumeRunsOnlyWhatHasNoLine) {
   options_.parameters["mesh"]["size"] = "5";
   EXPECT_THROW(run({"mesh"}), InputError);
   EXPECT_EQ(lines().size(), 2U);
+}
+
+std::string error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Runner, ResumeNoticesAnotherImageAndRunsAgainOnlyWhenTold) {
+  run({"mesh", "fail"});
+  options_.resume = true;
+  bench_.cases[0].image_sha256 = "def";
+  const std::string error = error_of([&] { run({"mesh", "fail"}); });
+  EXPECT_NE(error.find("2 of the jobs"), std::string::npos) << error;
+  EXPECT_NE(error.find("its case or its command line"), std::string::npos) << error;
+  EXPECT_NE(error.find("--rerun-changed"), std::string::npos) << error;
+  options_.rerun_changed = true;
+  EXPECT_EQ(run({"mesh", "fail"}).size(), 2U);
+  EXPECT_EQ(lines()[0]["provenance"]["image_sha256"], "def");
+  EXPECT_EQ(read_results(options_.out_dir / "results.superseded.jsonl").size(), 2U);
+}
+
+TEST_F(Runner, ResumeNoticesAnotherBuildOfTheMesher) {
+  const auto program = folder_.path() / "program";
+  std::filesystem::copy_file(TEST_CHILD, program);
+  bench_.meshers = {fake_mesher("mesh")};
+  bench_.meshers[0].command = [program](const std::filesystem::path&, const baselines::MeshJob& job) {
+    return std::vector<std::string>{program, "mesh", job.mesh, job.report};
+  };
+  run_jobs(bench_, options_, progress_);
+  std::vector<Json> before = lines();
+  before[0]["provenance"]["program_sha256"] = "0123";
+  replace_results(options_.out_dir / "results.jsonl", before);
+  options_.resume = true;
+  EXPECT_NE(error_of([&] { run_jobs(bench_, options_, progress_); }).find("is another build now"),
+            std::string::npos);
+}
+
+TEST_F(Runner, FailedJobsAreRetriedWhenTold) {
+  run({"mesh", "fail"});
+  options_.resume = options_.retry_failed = true;
+  EXPECT_EQ(run({"mesh", "fail"}).size(), 2U);
+  const auto superseded = read_results(options_.out_dir / "results.superseded.jsonl");
+  ASSERT_EQ(superseded.size(), 1U);
+  EXPECT_EQ(superseded[0]["mesher"], "fail");
+}
+
+TEST_F(Runner, ASecondRunnerOnAFolderIsRefused) {
+  std::filesystem::create_directories(options_.out_dir);
+  {
+    const FolderLock lock(options_.out_dir);
+    EXPECT_NE(error_of([&] { run({"mesh"}); }).find("in use by another runner (process "), std::string::npos);
+  }
+  EXPECT_EQ(run({"mesh"}).size(), 1U);
+}
+
+TEST_F(Runner, TheSameMeshIsEvaluatedOnce) {
+  options_.repeats = 2;
+  const auto count = folder_.path() / "count";
+  std::ofstream(folder_.path() / "evaluate")
+      << "#!/bin/sh\necho x >> " << count.string() << "\nexec " BENCH " evaluate \"$@\"\n";
+  std::filesystem::permissions(folder_.path() / "evaluate", std::filesystem::perms::owner_all);
+  bench_.evaluate_command = {folder_.path() / "evaluate"};
+  run({"mesh"});
+  EXPECT_EQ(lines().at(1)["counts"]["tets"], 1);
+  EXPECT_EQ(lines().at(0)["mesh_sha256"], lines().at(1)["mesh_sha256"]);
+  EXPECT_EQ(std::filesystem::file_size(count), 2U);
+}
+
+TEST_F(Runner, ShardsPartTheJobsAndMergeJoinsThem) {
+  std::vector<std::filesystem::path> folders;
+  for (int index = 1; index <= 2; ++index) {
+    options_.shard = {index, 2};
+    options_.out_dir = folder_.path() / ("shard" + std::to_string(index));
+    folders.push_back(options_.out_dir);
+    run({"mesh", "fail", "exit"});
+    EXPECT_EQ(lines().size(), index == 1 ? 2U : 1U);
+  }
+  const auto joint = folder_.path() / "joint";
+  EXPECT_EQ(merge_runs(folders, joint).size(), 3U);
+  EXPECT_EQ(read_results(joint / "results.jsonl").size(), 3U);
+  EXPECT_TRUE(std::filesystem::exists(joint / "meshes" / "box-mesh-t1-r0.vtu"));
+  EXPECT_THROW(merge_runs(folders, joint), InputError);
+  EXPECT_THROW(merge_runs({folder_.path() / "none"}, folder_.path() / "joint2"), InputError);
+  std::vector<Json> other = read_results(folders[0] / "results.jsonl");
+  other[0]["threads"] = 1;
+  other[0]["reason"] = "another";
+  replace_results(folders[1] / "results.jsonl", other);
+  EXPECT_NE(error_of([&] { merge_runs(folders, folder_.path() / "joint3"); }).find("different lines"),
+            std::string::npos);
+}
+
+TEST_F(Runner, ALineTellsWhereItsFiguresComeFrom) {
+  bench_.cases[0].parameters["mesh"]["size"] = "3";
+  run({"mesh"});
+  const Json origin = lines().at(0)["provenance"];
+  for (const char* key :
+       {"git_commit", "git_dirty", "compiler", "compiler_flags", "libraries", "cpu", "cores", "load_1min",
+        "image_sha256", "configuration_sha256", "program_sha256", "utc"}) {
+    EXPECT_TRUE(origin.contains(key) && !origin[key].is_null()) << key;
+  }
+  EXPECT_TRUE(origin.contains("seed"));
+  EXPECT_EQ(origin["configuration_sha256"].get<std::string>().size(), 64U);
+  EXPECT_GT(lines()[0]["time_s"]["reference_cpu"].get<double>(), 0);
 }
 
 TEST_F(Runner, PlansThreadsRepeatsAndParameters) {

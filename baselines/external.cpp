@@ -1,0 +1,215 @@
+#include "baselines/external.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::baselines {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Texts = std::vector<std::string>;
+
+/// The JSON file with the words to complain about it.
+struct Description {
+  const fs::path& file;
+  json content;
+
+  [[noreturn]] void fail(const std::string& key, const std::string& finding) const {
+    throw InputError("'" + file.string() + "': \"" + key + "\" " + finding);
+  }
+  [[nodiscard]] std::string text(const json& object, const std::string& key,
+                                 const std::string& remedy) const {
+    const auto found = object.find(key);
+    if (found == object.end()) fail(key, "is missing; give " + remedy);
+    if (!found->is_string() || found->get<std::string>().empty())
+      fail(key, "is " + found->dump() + "; give " + remedy);
+    return found->get<std::string>();
+  }
+  [[nodiscard]] Texts texts(const std::string& key) const {
+    const json& list = content.at(key);
+    const bool good = list.is_array() && !list.empty() &&
+                      std::all_of(list.begin(), list.end(), [](const json& t) { return t.is_string(); }) &&
+                      !list.front().get<std::string>().empty();
+    if (!good) fail(key, "is " + list.dump() + "; give a list of texts, the program first");
+    return list.get<Texts>();
+  }
+  [[nodiscard]] bool flag(const std::string& key, bool fallback) const {
+    const auto found = content.find(key);
+    if (found == content.end()) return fallback;
+    if (!found->is_boolean()) fail(key, "is " + found->dump() + "; give true or false");
+    return found->get<bool>();
+  }
+  void require_known(const json& object, const std::set<std::string>& known) const {
+    for (const auto& [key, value] : object.items()) {
+      std::string names;
+      for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+      if (!known.contains(key)) fail(key, "is not a key here; there are " + names);
+    }
+  }
+};
+
+Description read_description(const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw InputError("cannot read '" + file.string() + "'; give the JSON file of an external mesher");
+  try {
+    Description description{file, json::parse(stream)};
+    if (!description.content.is_object())
+      throw InputError("'" + file.string() + "' is no JSON object; see baselines/external.hpp for its keys");
+    return description;
+  } catch (const json::parse_error& error) {
+    throw InputError("'" + file.string() + "' is no JSON: " + error.what());
+  }
+}
+
+/// Puts values for the names in braces. `value` may throw for a name that it does not know.
+std::string expand(const std::string& text, const std::function<std::string(const std::string&)>& value) {
+  std::string expanded;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t close = text.find('}', at);
+    if (text[at] != '{') {
+      expanded += text[at++];
+    } else if (text.compare(at, 2, "{{") == 0) {
+      expanded += '{';
+      at += 2;
+    } else if (close == std::string::npos) {
+      expanded += value(text.substr(at + 1));
+      at = text.size();
+    } else {
+      expanded += value(text.substr(at + 1, close - at - 1));
+      at = close + 1;
+    }
+  }
+  return expanded;
+}
+
+std::vector<ParameterSpec> read_parameters(const Description& description) {
+  std::vector<ParameterSpec> specs;
+  if (!description.content.contains("parameters")) return specs;
+  const json& list = description.content["parameters"];
+  if (!list.is_array()) description.fail("parameters", "is " + list.dump() + "; give a list of objects");
+  for (const json& entry : list) {
+    if (!entry.is_object()) description.fail("parameters", "holds " + entry.dump() + "; give objects");
+    description.require_known(entry, {"key", "default", "unit", "description"});
+    specs.push_back({description.text(entry, "key", "the parameter's name"),
+                     description.text(entry, "default", "its default as a text"),
+                     entry.contains("unit") ? description.text(entry, "unit", "a unit as a text") : "",
+                     description.text(entry, "description", "one line")});
+  }
+  return specs;
+}
+
+/// The names that the command's braces may hold must all be known, and those that matter must be there.
+void check_placeholders(const Description& description, const Texts& command,
+                        const std::vector<ParameterSpec>& specs) {
+  std::set<std::string> known{"image", "mesh", "report", "threads"};
+  for (const ParameterSpec& spec : specs) {
+    if (!known.insert(spec.key).second) description.fail("parameters", "has \"" + spec.key + "\" twice");
+  }
+  std::set<std::string> used;
+  for (const std::string& argument : command) {
+    expand(argument, [&](const std::string& name) {
+      if (!known.contains(name))
+        description.fail("command", "names {" + name +
+                                        "}, which is no parameter; add it to \"parameters\" or " +
+                                        "write {{ for a brace");
+      used.insert(name);
+      return std::string();
+    });
+  }
+  for (const std::string& name : known) {
+    if (!used.contains(name) && name != "report" && name != "threads")
+      description.fail("command", "lacks {" + name + "}; put it where the program expects it");
+  }
+}
+
+std::string resolve_program(const std::string& program, const fs::path& folder) {
+  const bool relative = program.find('/') != std::string::npos && program.front() != '/';
+  return relative ? (folder / program).lexically_normal().string() : program;
+}
+
+Availability availability_of(const std::string& program, const fs::path& file) {
+  const fs::path found = find_program(program);
+  if (found.empty())
+    return {false, "'" + program + "' of '" + file.filename().string() + "' is " +
+                       (program.find('/') == std::string::npos ? "nowhere in PATH" : "no file") +
+                       "; install it or correct \"command\""};
+  if (::access(found.c_str(), X_OK) != 0)
+    return {false, "'" + found.string() + "' may not be executed; chmod +x it"};
+  return {true, ""};
+}
+
+Texts command_of(const Texts& command, const std::vector<ParameterSpec>& specs, const MeshJob& job) {
+  std::map<std::string, std::string> values{{"image", job.image.string()},
+                                            {"mesh", job.mesh.string()},
+                                            {"report", job.report.string()},
+                                            {"threads", std::to_string(job.threads)}};
+  for (const ParameterSpec& spec : specs) values[spec.key] = spec.default_value;
+  for (const auto& [key, value] : job.parameters) values[key] = value;
+  Texts argv;
+  for (const std::string& argument : command)
+    argv.push_back(expand(argument, [&](const std::string& name) { return values.at(name); }));
+  return argv;
+}
+
+std::string checked_name(const Description& description) {
+  std::string name = description.text(description.content, "name", "a name of letters, digits and hyphens");
+  const bool good = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '-' || c == '_');
+  });
+  if (!good) description.fail("name", "is \"" + name + "\"; use letters, digits and hyphens alone");
+  return "external:" + name;
+}
+
+std::string checked_extension(const Description& description) {
+  const std::string format = description.text(description.content, "output", "vtu, vtk or msh");
+  if (format != "vtu" && format != "vtk" && format != "msh")
+    description.fail("output", "is \"" + format + "\"; give vtu, vtk or msh");
+  return "." + format;
+}
+
+}  // namespace
+
+Adapter load_external_mesher(const fs::path& file) {
+  const Description description = read_description(file);
+  description.require_known(description.content,
+                            {"name", "description", "licence", "command", "output", "version_command",
+                             "multithreaded", "deterministic", "parameters"});
+  Adapter adapter;
+  adapter.name = checked_name(description);
+  adapter.description = description.text(description.content, "description", "one line");
+  adapter.licence = description.text(description.content, "licence", "an SPDX expression, \"MIT\" for one");
+  adapter.mesh_extension = checked_extension(description);
+  adapter.multithreaded = description.flag("multithreaded", false);
+  adapter.deterministic = description.flag("deterministic", true);
+  adapter.parameters = read_parameters(description);
+  if (!description.content.contains("command"))
+    description.fail("command", "is missing; give a list of texts, the program first");
+  Texts command = description.texts("command");
+  check_placeholders(description, command, adapter.parameters);
+  const fs::path folder = fs::absolute(file).parent_path();
+  command[0] = resolve_program(command[0], folder);
+  if (description.content.contains("version_command")) {
+    adapter.version_command = description.texts("version_command");
+    adapter.version_command[0] = resolve_program(adapter.version_command[0], folder);
+  }
+  adapter.availability = [program = command[0], file](const fs::path&) {
+    return availability_of(program, file);
+  };
+  adapter.command = [command, name = adapter.name, specs = adapter.parameters](const fs::path&,
+                                                                               const MeshJob& job) {
+    require_known_parameters(name, specs, job);
+    return command_of(command, specs, job);
+  };
+  return adapter;
+}
+
+}  // namespace cbc3d::baselines

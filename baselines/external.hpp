@@ -1,0 +1,29 @@
+// Meshers from outside: a JSON file names a command line, and the mesher stands in the tables as any other.
+//
+// {"name": "mytool",                                    letters, digits, hyphens; the bench calls it
+// external:mytool
+//  "description": "what it is",                         one line
+//  "licence": "MIT",                                    SPDX expression
+//  "command": ["mytool", "{image}", "{mesh}", "-j", "{threads}", "--size={size}"],
+//  "output": "vtu",                                     vtu, vtk or msh, with an integer cell array `label`
+//  "version_command": ["mytool", "--version"],          optional; its first line goes into the provenance
+//  "multithreaded": true, "deterministic": true,        optional; default: false, true
+//  "parameters": [{"key": "size", "default": "2", "unit": "mm", "description": "element size"}]}    optional
+//
+// No shell sees the command: each entry is one argument, whatever it holds. Braces name a value: {image},
+// {mesh} and {report} are files, {threads} a number, all others must be parameters; "{{" stands for "{". A
+// program with a slash is meant relative to the JSON file's folder, any other is looked for in PATH. A mesher
+// that writes to {report} the JSON of driver.hpp is timed by its own figures, any other from its start to its
+// end.
+#pragma once
+
+#include <filesystem>
+
+#include "baselines/adapter.hpp"
+
+namespace cbc3d::baselines {
+
+/// Reads a mesher from its JSON file. Throws InputError naming file, key and remedy.
+Adapter load_external_mesher(const std::filesystem::path& file);
+
+}  // namespace cbc3d::baselines

@@ -1,0 +1,104 @@
+#include "baselines/external.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::baselines {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class External : public testing::Test {
+ protected:
+  External() {
+    std::string pattern = fs::temp_directory_path() / "cbc3d-external-XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~External() override { fs::remove_all(folder_); }
+  External(const External&) = delete;
+  External& operator=(const External&) = delete;
+
+  fs::path write(const std::string& text) const {
+    std::ofstream(folder_ / "tool.json") << text;
+    return folder_ / "tool.json";
+  }
+  std::string error_of(const std::string& text) const {
+    try {
+      load_external_mesher(write(text));
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("tool.json"), std::string::npos);
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+  json good_{{"name", "tool"},
+             {"description", "a tool"},
+             {"licence", "MIT"},
+             {"command", {"./bin/tool", "in={image}", "{mesh}", "-j{threads}", "{{{size}}", "it's \"$x\""}},
+             {"output", "msh"},
+             {"parameters", {{{"key", "size"}, {"default", "2"}, {"unit", "mm"}, {"description", "size"}}}}};
+};
+
+TEST_F(External, ACommandIsFilledInWithoutAShell) {
+  const Adapter adapter = load_external_mesher(write(good_.dump()));
+  EXPECT_EQ(adapter.name, "external:tool");
+  EXPECT_EQ(adapter.mesh_extension, ".msh");
+  EXPECT_FALSE(adapter.multithreaded);
+  EXPECT_TRUE(adapter.deterministic);
+  const MeshJob job{"a b.nii", "o'ut.msh", "r.json", 3, {{"size", "1.5"}}};
+  EXPECT_EQ(adapter.command("", job), (std::vector<std::string>{(folder_ / "bin/tool").string(), "in=a b.nii",
+                                                                "o'ut.msh", "-j3", "{1.5}", "it's \"$x\""}));
+  EXPECT_EQ(adapter.command("", {"i", "m", "r", 1, {}})[4], "{2}");
+  EXPECT_THROW(adapter.command("", {"i", "m", "r", 1, {{"sise", "1"}}}), InputError);
+}
+
+TEST_F(External, AMissingOrForbiddenProgramIsSaidWithItsRemedy) {
+  const Adapter adapter = load_external_mesher(write(good_.dump()));
+  EXPECT_NE(adapter.availability("").reason.find("is no file; install it"), std::string::npos);
+  fs::create_directory(folder_ / "bin");
+  std::ofstream(folder_ / "bin" / "tool") << "#!/bin/sh\n";
+  EXPECT_NE(adapter.availability("").reason.find("chmod +x"), std::string::npos);
+  fs::permissions(folder_ / "bin" / "tool", fs::perms::owner_all);
+  EXPECT_TRUE(adapter.availability("").available);
+  good_["command"][0] = "surely-no-such-program";
+  EXPECT_NE(load_external_mesher(write(good_.dump())).availability("").reason.find("nowhere in PATH"),
+            std::string::npos);
+}
+
+TEST_F(External, BadFilesAreRefusedByKey) {
+  EXPECT_THROW(load_external_mesher(folder_ / "none.json"), InputError);
+  EXPECT_NE(error_of("{ no json").find("is no JSON"), std::string::npos);
+  EXPECT_NE(error_of("[]").find("no JSON object"), std::string::npos);
+  for (const char* key : {"name", "description", "licence", "command", "output"}) {
+    json without = good_;
+    without.erase(key);
+    EXPECT_NE(error_of(without.dump()).find("\"" + std::string(key) + "\" is missing; give"),
+              std::string::npos);
+  }
+  const std::vector<std::pair<json, std::string>> wrong{
+      {{{"name", "a/b"}}, "\"name\""},
+      {{{"colour", "red"}}, "\"colour\" is not a key"},
+      {{{"output", "stl"}}, "give vtu, vtk or msh"},
+      {{{"command", "tool {image} {mesh}"}}, "give a list of texts"},
+      {{{"command", {"tool", "{image}", "{size}"}}}, "lacks {mesh}"},
+      {{{"command", {"tool", "{image}", "{mesh}", "{size}", "{colour}"}}}, "names {colour}"},
+      {{{"command", {"tool", "{image}", "{mesh}"}}}, "lacks {size}"},
+      {{{"multithreaded", 1}}, "give true or false"},
+      {{{"parameters", {{{"key", "size"}}}}}, "\"default\" is missing"}};
+  for (const auto& [change, named] : wrong) {
+    json bad = good_;
+    bad.update(change);
+    EXPECT_NE(error_of(bad.dump()).find(named), std::string::npos) << error_of(bad.dump());
+  }
+}
+
+}  // namespace
+}  // namespace cbc3d::baselines

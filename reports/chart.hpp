@@ -1,0 +1,35 @@
+// Charts as SVG: bars in groups, and lines with error bars.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cbc3d::reports {
+
+/// One row of values; NaN leaves a gap.
+struct Series {
+  std::string name;
+  std::vector<double> values;
+  std::vector<double> errors;  ///< half lengths of error bars; empty: none
+  bool dashed = false;         ///< a line for comparison, without marks
+};
+
+struct Chart {
+  std::string title;
+  std::string x_title, y_title;
+  std::vector<std::string> categories;  ///< of the bars or points, in order
+  std::vector<Series> series;
+  bool logarithmic = false;  ///< y axis in powers of ten; values must be > 0
+  int label_every = 1;       ///< write the name of every Nth category
+  std::string note;          ///< small, beneath
+};
+
+/// A stand-alone SVG document whose size follows its width, so that it can be put into a page as it is.
+std::string bar_chart(const Chart& chart);
+/// As above, with points joined by lines instead of bars.
+std::string line_chart(const Chart& chart);
+
+/// Ticks that a person would choose, from 0 or below to at least `highest`.
+std::vector<double> axis_ticks(double highest);
+
+}  // namespace cbc3d::reports

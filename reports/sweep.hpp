@@ -1,0 +1,60 @@
+// What a sweep over threads tells: medians and spreads of times, speed-up and efficiency, stage by stage.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/figures.hpp"
+#include "reports/result.hpp"
+#include "reports/table.hpp"
+
+namespace cbc3d::reports {
+
+/// The samples of one time, in the order in which they were taken.
+struct Samples {
+  std::vector<double> seconds;
+  std::vector<bool> outlier;  ///< by statistics.hpp's outliers(); they count all the same
+  double median_s = 0;
+  double spread_s = 0;  ///< standard deviation by the median absolute deviation
+  double error_s = 0;   ///< standard error of the median
+};
+
+/// A quotient and its standard error.
+struct Ratio {
+  double value = 1;
+  double error = 0;
+};
+
+/// One mesher on one case with one thread count.
+struct SweepPoint {
+  std::string case_name, mesher;
+  int threads = 1;
+  Samples total;
+  std::vector<std::pair<std::string, Samples>> stages;  ///< those that every sample has
+  std::vector<Ratio> stage_speed_ups;  ///< of the stages, in their order; empty without a speed-up
+  bool has_speed_up = false;           ///< there are samples with fewer threads to compare with
+  int base_threads = 1;                ///< the fewest threads, which the speed-up is over
+  Ratio speed_up;
+  Ratio efficiency;     ///< speed-up over threads / base_threads
+  std::string failure;  ///< of a sample that is not ok; empty: none
+};
+
+/// One point for every case, mesher and thread count. Errors of quotients: relative errors added in
+/// quadrature.
+std::vector<SweepPoint> sweep_points(const std::vector<Json>& results);
+
+/// All points with all samples.
+Json to_json(const std::vector<SweepPoint>& points);
+
+/// Tables `sweep` (median, spread, speed-up, efficiency, outliers) and `sweep_stages`.
+std::vector<Table> sweep_tables(const std::vector<SweepPoint>& points);
+
+/// Per case: the times and the speed-ups over the threads, and for every mesher of several thread counts the
+/// stages.
+std::vector<Figure> sweep_figures(const std::vector<SweepPoint>& points);
+
+/// A table of the microbenchmarks in a Google Benchmark JSON (--benchmark_out). Throws InputError naming
+/// file, key and remedy when it is none.
+Table microbenchmark_table(const std::filesystem::path& file);
+
+}  // namespace cbc3d::reports
