@@ -297,7 +297,7 @@ nlohmann::json to_json(const MeshQuality& quality, const MeshView& view) {
     per_label.push_back(one_json(quality.per_label[l]));
     per_label.back()["label"] = view.labels()[l];
   }
-  object["per_label"] = per_label;
+  object["per_label"] = std::move(per_label);
   return object;
 }
 

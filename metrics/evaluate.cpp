@@ -39,7 +39,8 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const MeshView view(mesh, image);
   progress.step("element quality", 0);
   const MeshQuality quality = element_quality(view);
-  json result{{"counts", counts_of(mesh)}, {"quality", to_json(quality, view)}};
+  json result{{"counts", counts_of(mesh)}};
+  result["quality"] = to_json(quality, view);
   progress.step("topology", 0.1);
   std::vector<Facet> facets = sorted_facets(view);
   const Surface surface = extract_surface(view, facets);

@@ -68,10 +68,8 @@ void add_label_faults(FaultList& faults, const MeshView& view, const Topology& t
       faults.add(who + ": its surface is no manifold at " + std::to_string(one.non_manifold_edges) +
                  " edges and " + std::to_string(one.non_manifold_vertices) + " further vertices");
     }
-    for (std::size_t m = 1; m < image.material_count(); ++m) {
-      if (image.labels[m] == view.labels()[l]) {
-        add_betti(faults, who, topology.betti.per_label[l], image_topology.per_material[m]);
-      }
+    if (const VoxelSetTopology* in_image = find_label(image_topology, image, view.labels()[l])) {
+      add_betti(faults, who, topology.betti.per_label[l], *in_image);
     }
   }
   add_betti(faults, "all labels together", topology.betti.all, image_topology.all);

@@ -239,6 +239,10 @@ void write_surface(json& object, const SurfaceFidelity& surface) {
   object["mesh_area_mm2"] = surface.mesh_area_mm2;
   object["voxel_area_mm2"] = surface.voxel_area_mm2;
   object["smooth_area_mm2"] = number_or_null(surface.smooth_area_mm2);
+}
+
+/// The figures of each direction on its own.
+void write_directions(json& object, const SurfaceFidelity& surface) {
   object["voxel_surface"] = both_json(surface.voxel);
   object["smooth_surface"] = both_json(surface.smooth);
 }
@@ -254,7 +258,7 @@ void write_points(json& object, const std::optional<double>& image_to_mesh,
   object["mesh_to_image_mm"] = number_or_null(mesh_to_image);
 }
 
-json label_json(const LabelFidelity& row) {
+json label_json(const LabelFidelity& row, bool with_directions) {
   json object{{"label", row.label},
               {"voxels", row.voxels},
               {"image_volume_mm3", row.image_volume_mm3},
@@ -266,6 +270,9 @@ json label_json(const LabelFidelity& row) {
   write_points(object, points ? std::optional(points->image_to_mesh_mm) : std::nullopt,
                points ? std::optional(points->mesh_to_image_mm) : std::nullopt);
   write_surface(object, row.surface);
+  if (with_directions) {
+    write_directions(object, row.surface);
+  }
   return object;
 }
 
@@ -286,6 +293,9 @@ struct Totals {
   }
 };
 
+/// Beyond so many interfaces their table would be the bulk of the result, and nobody reads it.
+constexpr std::size_t kMostInterfaces = 10000;
+
 }  // namespace
 
 Fidelity fidelity(const MeshView& view, const LabelImage& image, const Surface& surface,
@@ -298,20 +308,25 @@ json to_json(const Fidelity& fidelity, const FidelityOptions& options) {
   auto per_label = json::array(), per_interface = json::array();
   for (const LabelFidelity& row : fidelity.per_label) {
     totals.add(row);
-    per_label.push_back(label_json(row));
+    per_label.push_back(label_json(row, fidelity.per_label.size() <= kMostInterfaces));
   }
   for (const InterfaceFidelity& row : fidelity.per_interface) {
+    if (fidelity.per_interface.size() > kMostInterfaces) {
+      break;
+    }
     per_interface.push_back({{"labels", {row.a, row.b}}});
     write_surface(per_interface.back(), row.surface);
+    write_directions(per_interface.back(), row.surface);
   }
   json object{{"dice_min", number_or_null(totals.dice_min)},
               {"volume_error_percent_max", number_or_null(totals.volume_error_max)},
               {"missing_labels", fidelity.labels.missing},
               {"unknown_labels", fidelity.labels.unknown},
               {"surface_tolerance_mm", nullptr},
-              {"per_label", per_label},
-              {"per_interface", per_interface},
+              {"interfaces", fidelity.per_interface.size()},
               {"outer_surface", json::object()}};
+  object["per_label"] = std::move(per_label);
+  object["per_interface"] = std::move(per_interface);
   if (options.certify) {
     object["surface_tolerance_mm"] = options.certify->tolerance_mm;
   }
@@ -319,6 +334,7 @@ json to_json(const Fidelity& fidelity, const FidelityOptions& options) {
   totals.voxel.write_to(object, "");
   totals.smooth.write_to(object, "smooth_");
   write_surface(object["outer_surface"], fidelity.outer);
+  write_directions(object["outer_surface"], fidelity.outer);
   return object;
 }
 

@@ -338,7 +338,8 @@ ImageTopology image_topology(const LabelImage& image) {
   const AllCornerSums sums = corner_sums(image);
   const Regions regions(image);
   ImageTopology result;
-  result.per_material.resize(image.material_count());
+  result.per_material.resize(image.material_count() <= kMostLabelsWithTopology + 1 ? image.material_count()
+                                                                                   : 0);
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t m = 1; m < result.per_material.size(); ++m) {
     result.per_material[m] =
@@ -347,6 +348,15 @@ ImageTopology image_topology(const LabelImage& image) {
   result.all =
       set_topology(regions, sums.back(), [](MaterialId material) { return material != kBackground; });
   return result;
+}
+
+const VoxelSetTopology* find_label(const ImageTopology& topology, const LabelImage& image, Label label) {
+  const auto first = image.labels.begin() + 1;
+  const auto found = std::lower_bound(first, image.labels.end(), label);
+  if (topology.per_material.empty() || found == image.labels.end() || *found != label) {
+    return nullptr;
+  }
+  return &topology.per_material[static_cast<std::size_t>(found - image.labels.begin())];
 }
 
 }  // namespace cbc3d::metrics

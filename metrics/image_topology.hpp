@@ -24,12 +24,19 @@ struct VoxelSetTopology {
   std::int64_t ambiguous = 0;  ///< corners of voxels at which the two differ
 };
 
+/// An image with more labels than this gets no topology per label: its cost grows with regions times labels.
+inline constexpr std::size_t kMostLabelsWithTopology = 4096;
+
 struct ImageTopology {
-  std::vector<VoxelSetTopology> per_material;  ///< background's entry is empty
+  std::vector<VoxelSetTopology> per_material;  ///< background's entry is empty; none with too many labels
   VoxelSetTopology all;                        ///< all labels as one set
 };
 
 /// Time linear in the voxels (and regions times labels), memory in the runs of equal voxels along rows.
 ImageTopology image_topology(const LabelImage& image);
+
+/// The topology of a label, null where the image has not the label or too many. `image` as read from a file,
+/// its labels ascending.
+const VoxelSetTopology* find_label(const ImageTopology& topology, const LabelImage& image, Label label);
 
 }  // namespace cbc3d::metrics

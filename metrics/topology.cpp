@@ -240,15 +240,6 @@ void write_betti(json& object, const CellSetTopology& mesh, const VoxelSetTopolo
   }
 }
 
-const VoxelSetTopology* find_in_image(const ImageTopology& topology, const LabelImage& image, Label label) {
-  for (std::size_t m = 1; m < image.material_count(); ++m) {
-    if (image.labels[m] == label) {
-      return &topology.per_material[m];
-    }
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 nlohmann::json to_json(const Topology& topology, const MeshView& view, const ImageTopology& image_topology,
@@ -264,22 +255,23 @@ nlohmann::json to_json(const Topology& topology, const MeshView& view, const Ima
              {"non_manifold_edges", one.non_manifold_edges},
              {"non_manifold_vertices", one.non_manifold_vertices},
              {"components", one.components}};
-    write_betti(row, topology.betti.per_label[l], find_in_image(image_topology, image, view.labels()[l]));
+    write_betti(row, topology.betti.per_label[l], find_label(image_topology, image, view.labels()[l]));
     per_label.push_back(std::move(row));
   }
   json all;
   write_betti(all, topology.betti.all, &image_topology.all);
-  return {{"conforming", topology.conforming},
-          {"hanging_vertices", topology.hanging_vertices.count},
-          {"misoriented_facets", topology.misoriented_facets.count},
-          {"overfull_facets", topology.overfull_facets.count},
-          {"duplicate_vertices", topology.duplicate_vertices.count},
-          {"unused_vertices", topology.unused_vertices.count},
-          {"non_manifold_edges", total.non_manifold_edges},
-          {"non_manifold_vertices", total.non_manifold_vertices},
-          {"components", total.components},
-          {"all_labels", all},
-          {"per_label", per_label}};
+  json object{{"conforming", topology.conforming},
+              {"hanging_vertices", topology.hanging_vertices.count},
+              {"misoriented_facets", topology.misoriented_facets.count},
+              {"overfull_facets", topology.overfull_facets.count},
+              {"duplicate_vertices", topology.duplicate_vertices.count},
+              {"unused_vertices", topology.unused_vertices.count},
+              {"non_manifold_edges", total.non_manifold_edges},
+              {"non_manifold_vertices", total.non_manifold_vertices},
+              {"components", total.components},
+              {"all_labels", all}};
+  object["per_label"] = std::move(per_label);
+  return object;
 }
 
 }  // namespace cbc3d::metrics

@@ -52,7 +52,8 @@ int evaluate(const EvaluateCommandOptions& options) {
   evaluation["image"] = image_section(image);
   progress.done();
   if (!options.json.empty()) {
-    write_text_file(options.json, evaluation.dump(2) + "\n");
+    write_text_file(options.json,
+                    evaluation.dump(evaluation.at("quality").at("per_label").size() > 1000 ? -1 : 2) + "\n");
   }
   if (!options.quiet) {
     for (const char* section : {"counts", "quality", "fidelity", "topology"}) {

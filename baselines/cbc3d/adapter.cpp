@@ -18,7 +18,7 @@ std::vector<ParameterSpec> parameters() {
       {"no-manifold-voxels", "false", kSwitch, "leave voxels that touch only by an edge or a vertex"},
       {"seed", "1", "", "of the choice among cleaning templates"},
       {"lattice-spacing", "ten voxels", "mm", "edge of the coarsest lattice cubes"},
-      {"finest-spacing", "smallest voxel spacing", "mm", "the fidelity makes the lattice no finer"},
+      {"finest-spacing", "near the smallest voxel spacing", "mm", "the fidelity makes the lattice no finer"},
       {"fidelity", "0.95", "", "F: refine a material while its F1 or F2 is below"},
       {"material-fidelity", "none", "LABEL=F", "the fidelity of one label"},
       {"max-distance", "preset", "mm",

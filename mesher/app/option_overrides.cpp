@@ -82,7 +82,7 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
   add_override<double>(app, overrides, "--finest-spacing",
                        "the fidelity criterion makes the lattice no finer than this, mm; --max-distance may "
                        "go to a quarter of it "
-                       "[the smallest voxel spacing]",
+                       "[the smallest voxel spacing, but half the geometric mean at least]",
                        [](MeshImageOptions& o) -> double& { return o.refine.finest_spacing_mm; })
       ->check(CLI::PositiveNumber);
   add_override<double>(app, overrides, "--max-distance",

@@ -7,6 +7,7 @@
 #include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/clean_image.hpp"
 #include "mesher/stages/deform_mesh.hpp"
+#include "mesher/stages/mix_elements.hpp"
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/refine_lattice.hpp"
 #include "mesher/tests/test_images.hpp"
@@ -129,6 +130,93 @@ void Deformation(benchmark::State& state) {
   count_tets(state, p.mesh.tets.size());
 }
 
+/// The deformation's parts on one mesh.
+struct Parts {
+  explicit Parts(const Prepared& p)
+      : around(cells_of_vertices(p.mesh)),
+        sources(extract_source_points(p.mesh, around, sets)),
+        targets(extract_target_points(p.image, Connectivity::no, sets)),
+        system(p.mesh, around, std::vector<ElasticMaterial>(p.image.labels.size()), {}),
+        is_source(p.mesh.points.size(), 0),
+        load(p.mesh.points.size()) {
+    const auto found = source_displacements({sources, targets, sets, p.image.frame}, p.mesh.points, {});
+    for (std::size_t s = 0; s < found.size(); ++s) {
+      is_source[sources.sources[s].vertex] = found[s].matched ? 1 : 0;
+      load[sources.sources[s].vertex] = found[s].vector;
+    }
+    system.assemble(p.mesh, is_source);
+  }
+  VertexCells around;
+  LabelSets sets;
+  SourcePoints sources;
+  TargetPoints targets;
+  ElasticSystem system;
+  std::vector<std::uint8_t> is_source;
+  std::vector<Vec3> load;
+};
+
+void MixElements(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    MaterialMesh mesh = p.mesh;
+    benchmark::DoNotOptimize(mix_elements(mesh, {}));
+  }
+  count_tets(state, p.mesh.tets.size());
+}
+
+void ExtractPoints(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    LabelSets sets;
+    const VertexCells around = cells_of_vertices(p.mesh);
+    benchmark::DoNotOptimize(extract_source_points(p.mesh, around, sets));
+    benchmark::DoNotOptimize(extract_target_points(p.image, Connectivity::no, sets));
+  }
+  count_voxels(state, p.image);
+}
+
+void SourceDisplacements(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  const Parts parts(p);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        source_displacements({parts.sources, parts.targets, parts.sets, p.image.frame}, p.mesh.points, {}));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(parts.sources.sources.size()));
+}
+
+void AssembleStiffness(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  Parts parts(p);
+  for (auto _ : state) {
+    parts.system.assemble(p.mesh, parts.is_source);
+  }
+  count_tets(state, p.mesh.tets.size());
+}
+
+void SolveSystem(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  const Parts parts(p);
+  int iterations = 0;
+  for (auto _ : state) {
+    std::vector<Vec3> u(p.mesh.points.size());
+    iterations = parts.system.solve(parts.load, u).iterations;
+    benchmark::DoNotOptimize(u.data());
+  }
+  state.counters["cg_iterations"] = iterations;
+  count_tets(state, p.mesh.tets.size());
+}
+
+void CheckQuality(benchmark::State& state) {
+  const Prepared& p = prepared(static_cast<int>(state.range(0)));
+  const VertexCells around = cells_of_vertices(p.mesh);
+  const QualityControl quality(p.mesh, around, {});
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(quality.failing(p.mesh.points, p.mesh.points));
+  }
+  count_tets(state, p.mesh.tets.size());
+}
+
 void all_sizes(benchmark::internal::Benchmark* benchmark) {
   for (const int size : kSizes) {
     benchmark->Arg(size);
@@ -142,6 +230,12 @@ BENCHMARK(AdaptiveRefinement)->Apply(all_sizes);
 BENCHMARK(ExtractTets)->Apply(all_sizes);
 BENCHMARK(TetNeighbours)->Apply(all_sizes);
 BENCHMARK(TopologyChecks)->Apply(all_sizes);
+BENCHMARK(MixElements)->Apply(all_sizes);
+BENCHMARK(ExtractPoints)->Apply(all_sizes);
+BENCHMARK(SourceDisplacements)->Apply(all_sizes);
+BENCHMARK(AssembleStiffness)->Apply(all_sizes);
+BENCHMARK(SolveSystem)->Apply(all_sizes);
+BENCHMARK(CheckQuality)->Apply(all_sizes);
 BENCHMARK(Deformation)->Apply(all_sizes);
 
 }  // namespace

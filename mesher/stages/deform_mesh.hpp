@@ -15,8 +15,8 @@ namespace cbc3d {
 
 /// What happens where an element falls below the minimum quality.
 enum class OnFailure {
-  stop,  ///< the paper: displacements around it are scaled and the system is solved again; after some
-         ///< attempts the whole mesh goes back to the previous iteration and the deformation ends
+  stop,     ///< the paper: displacements around it are scaled and the system is solved again; after some
+            ///< attempts the whole mesh goes back to the previous iteration and the deformation ends
   recover,  ///< only the vertices of failing elements are held back, and the deformation goes on
 };
 

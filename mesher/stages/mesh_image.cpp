@@ -1,6 +1,7 @@
 #include "mesher/stages/mesh_image.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "mesher/core/mesh_io.hpp"
@@ -55,11 +56,18 @@ MaterialMesh as_material_mesh(const Lattice& lattice) {
   return {local_points(lattice), tets.nodes, std::vector<MaterialId>(tets.size(), 1), {}, {}};
 }
 
+/// The smallest voxel spacing; of needle or plate voxels no less than half the geometric mean, for a lattice
+/// of equal-sided elements as fine as a voxel's thinnest side would have no end.
+double default_finest_spacing_mm(const ImageFrame& frame) {
+  const Vec3& s = frame.spacing_mm;
+  return std::max(s.min_coeff(), 0.5 * std::cbrt(s.x * s.y * s.z));
+}
+
 RefineOptions refine_options(const LabelImage& image, const MeshImageOptions& options) {
   RefineOptions refine = options.refine;
   refine.topology_checks = options.topology.enabled;
   if (refine.finest_spacing_mm <= 0) {
-    refine.finest_spacing_mm = image.frame.spacing_mm.min_coeff();
+    refine.finest_spacing_mm = default_finest_spacing_mm(image.frame);
   }
   return refine;
 }
@@ -196,6 +204,11 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
       });
     });
     log.dump("4_deformed_mesh", mesh);
+    if (report.deform.stopped_early) {
+      report.warnings.push_back("the deformation stopped in iteration " +
+                                std::to_string(report.deform.iterations.size()) +
+                                ": elements stay below the minimum quality; --on-failure recover goes on");
+    }
   }
   return to_physical_mesh(mesh, image);
 }
