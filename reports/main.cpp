@@ -1,10 +1,16 @@
 // cbc3d-bench: meshers on cases, measured alike.
 #include <iostream>
+#include <string_view>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/runtime.hpp"
 #include "reports/commands.hpp"
 
 int main(int argc, char** argv) {
+  // Not for `run`: the meshers that it starts keep the environment they were given.
+  if (argc > 1 && std::string_view(argv[1]) == "evaluate") {
+    cbc3d::let_waiting_threads_sleep(argv);
+  }
   using namespace cbc3d;
   CLI::App app{
       "Runs meshers on segmented images, judges the meshes and writes comparison tables.\n"

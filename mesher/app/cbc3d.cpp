@@ -9,8 +9,10 @@
 #include "mesher/app/segment_command.hpp"
 #include "mesher/app/tile_command.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/runtime.hpp"
 
 int main(int argc, char** argv) {
+  cbc3d::let_waiting_threads_sleep(argv);
   CLI::App app{"CBC3D: from a segmented multi-label image to a tetrahedral or mixed mesh"};
   app.require_subcommand(1);
   app.set_version_flag("--version", CBC3D_VERSION);

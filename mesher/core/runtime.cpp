@@ -3,9 +3,11 @@
 #include <itkMultiThreaderBase.h>
 #include <omp.h>
 #include <sys/resource.h>
+#include <unistd.h>
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace cbc3d {
 
@@ -36,6 +38,13 @@ double process_cpu_seconds() {
 
 std::int64_t process_peak_rss_bytes() {
   return static_cast<std::int64_t>(self_usage().ru_maxrss) * 1024;
+}
+
+void let_waiting_threads_sleep(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr &&
+      ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0) {
+    ::execv("/proc/self/exe", argv);
+  }
 }
 
 }  // namespace cbc3d
