@@ -128,7 +128,7 @@ void add_deformation_options(CLI::App& app, Overrides& overrides) {
   add_override<double>(
       app, overrides, "--pair-distance",
       "a source or a target farther from its nearest partner is pulled so near, voxel diagonals; 0: off "
-      "[quality: 0.6, paper: 0.5]",
+      "[quality: 0.8, paper: 0.5]",
       [](MeshImageOptions& o) -> double& { return o.deform.displacement.pair_distance; })
       ->check(CLI::NonNegativeNumber);
   add_override<int>(app, overrides, "--attempts",

@@ -14,7 +14,7 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
     options.clean.region_tolerance = 0;
     options.refine.max_distance_mm = 2 * frame.voxel_diagonal_mm();
     options.deform.displacement.target_position = TargetPosition::voxel_faces;
-    options.deform.displacement.pair_distance = 0.6;
+    options.deform.displacement.pair_distance = 0.8;
     return options;
   }
   if (name == "paper") {

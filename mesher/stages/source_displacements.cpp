@@ -70,7 +70,8 @@ class TargetSearch {
 #pragma omp parallel for schedule(static)
     for (std::size_t s = 0; s < count; ++s) {
       if (target_of_source[s] != kNoPair) {
-        const Vec3 lacking = centres[~target_of_source[s] & 0xFFFFFFFFU] - moved(s, found);
+        const std::size_t t = ~target_of_source[s] & 0xFFFFFFFFU;
+        const Vec3 lacking = pair_vector(points_.targets.targets[t], centres[t], moved(s, found));
         const double length = lacking.norm();
         if (length > most_mm) {
           found[s].vector += (1 - most_mm / length) * lacking;
@@ -96,6 +97,28 @@ class TargetSearch {
   [[nodiscard]] Vec3 moved(std::size_t s, const std::vector<SourceDisplacement>& found) const {
     return positions_[points_.sources.sources[s].vertex] + found[s].vector;
   }
+  /// From a position to a target: its centre, or the nearest of its open faces.
+  [[nodiscard]] Vec3 pair_vector(const TargetPoint& target, const Vec3& centre, const Vec3& at) const {
+    const Vec3 to_centre = centre - at;
+    if (options_.target_position == TargetPosition::voxel_centre) {
+      return to_centre;
+    }
+    Vec3 nearest;
+    double shortest = std::numeric_limits<double>::max();
+    for (unsigned f = 0; f < 6; ++f) {
+      if ((target.faces >> f & 1U) != 0) {
+        Vec3 to_face = to_centre;
+        const int axis = static_cast<int>(f / 2);
+        to_face[axis] += (f % 2 == 0 ? -0.5 : 0.5) * points_.frame.spacing_mm[axis];
+        if (to_face.squared_norm() < shortest) {
+          shortest = to_face.squared_norm();
+          nearest = to_face;
+        }
+      }
+    }
+    return nearest;
+  }
+
   /// Calls visit(target, squared distance) for the targets of the set of s near where it moves to.
   template <typename Visit>
   void for_pairs(std::size_t s, double radius, const std::vector<SourceDisplacement>& found,
@@ -103,7 +126,7 @@ class TargetSearch {
     const Vec3 at = moved(s, found);
     for_targets_near(at, radius, [&](const TargetPoint& t, const Vec3& centre) {
       if (t.set == points_.sources.sources[s].set) {
-        visit(t, (centre - at).squared_norm());
+        visit(t, pair_vector(t, centre, at).squared_norm());
       }
     });
   }
