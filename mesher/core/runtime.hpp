@@ -10,12 +10,11 @@ namespace cbc3d {
 /// cores. Returns the count in force.
 int set_thread_count(int threads);
 
-/// Lets OpenMP's waiting threads sleep instead of spin, unless the environment says how they wait: on a machine that
-/// does other things too, spinning threads hold up the one they wait for, several times over. The library reads this
-/// when the program is loaded, so the program starts itself once more; call it first in main(). Does nothing where
-/// that cannot be done.
+/// Lets OpenMP's waiting threads sleep instead of spin, unless the environment says how they wait: on a
+/// machine that does other things too, spinning threads hold up the one they wait for, several times over.
+/// The library reads this when the program is loaded, so the program starts itself once more; call it first
+/// in main(). Does nothing where that cannot be done.
 void let_waiting_threads_sleep(char** argv);
-
 
 /// Wall-clock seconds since construction.
 class Stopwatch {
