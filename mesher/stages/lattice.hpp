@@ -5,8 +5,7 @@
 //   level l      red tets of level l are BCC tets of the lattice with spacing a / 2^l
 //   red tet      a regular tet: congruent (up to scale) to the coarse ones, may be split 1:8
 //   green tet    a piece of a red tet that has split edges but is not split itself (1:2 or 1:4); never kept,
-//   always
-//                derived anew, so that it is "replaced by its red parent when it must split" for free
+//                always derived anew, so that it is "replaced by its red parent when it must split" for free
 //   unit         the finest half-spacing, a / 2^(max_level+1); every vertex is an integer triple in units
 //
 // A point of the level-(l+1) lattice that is no vertex of level l is the midpoint of exactly one level-l
