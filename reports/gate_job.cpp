@@ -21,19 +21,6 @@ std::vector<std::string> path_of(const std::string& name) {
   return path;
 }
 
-/// The largest volume error of a label, without its sign.
-std::optional<double> largest_volume_error(const Json& line) {
-  const Json labels = figure(line, {"fidelity", "per_label"});
-  std::optional<double> largest;
-  for (const Json& label : labels.is_array() ? labels : Json::array()) {
-    const Json error = figure(label, {"volume_error_percent"});
-    if (error.is_number()) {
-      largest = std::max(largest.value_or(0), std::abs(error.get<double>()));
-    }
-  }
-  return largest;
-}
-
 std::optional<double> value_of(const Json& line, const std::string& name) {
   if (name == "volume_error_percent") {
     return largest_volume_error(line);

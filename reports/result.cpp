@@ -1,5 +1,7 @@
 #include "reports/result.hpp"
 
+#include <cmath>
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -146,6 +148,18 @@ Json figure(const Json& result, const std::vector<std::string>& path) {
     at = &(*at)[key];
   }
   return *at;
+}
+
+std::optional<double> largest_volume_error(const Json& result) {
+  const Json labels = figure(result, {"fidelity", "per_label"});
+  std::optional<double> largest;
+  for (const Json& label : labels.is_array() ? labels : Json::array()) {
+    const Json error = figure(label, {"volume_error_percent"});
+    if (error.is_number()) {
+      largest = std::max(largest.value_or(0), std::abs(error.get<double>()));
+    }
+  }
+  return largest;
 }
 
 }  // namespace cbc3d::reports

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,5 +45,8 @@ std::string file_stem(const Json& result);
 
 /// The figure at a path such as {"fidelity", "hausdorff_mm"}; null where any of it is absent.
 Json figure(const Json& result, const std::vector<std::string>& path);
+
+/// The largest volume error of a label of a result line, percent, without its sign; none without labels.
+std::optional<double> largest_volume_error(const Json& result);
 
 }  // namespace cbc3d::reports

@@ -37,19 +37,6 @@ Figure at(std::vector<std::string> path, double factor = 1) {
   };
 }
 
-/// The largest volume error of a label, without its sign.
-std::optional<double> largest_volume_error(const Json& result) {
-  const Json labels = figure(result, {"fidelity", "per_label"});
-  std::optional<double> largest;
-  for (const Json& label : labels.is_array() ? labels : Json::array()) {
-    const Json error = figure(label, {"volume_error_percent"});
-    if (error.is_number()) {
-      largest = std::max(largest.value_or(0), std::abs(error.get<double>()));
-    }
-  }
-  return largest;
-}
-
 std::optional<double> missing_label_count(const Json& result) {
   const Json missing = figure(result, {"fidelity", "missing_labels"});
   return missing.is_array() ? std::optional(static_cast<double>(missing.size())) : std::nullopt;
