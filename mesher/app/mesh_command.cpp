@@ -104,6 +104,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   mesh->add_option("--material-fidelity", command->material_fidelity,
                    "LABEL=F: the fidelity of one label (repeatable)");
   add_mixed_options(*mesh, command->overrides);
+  add_improvement_options(*mesh, command->overrides);
   add_deformation_options(*mesh, command->overrides);
   add_material_options(*mesh, command->materials);
   mesh->add_option("--report", command->report_file,

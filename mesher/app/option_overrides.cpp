@@ -158,6 +158,26 @@ void add_deformation_options(CLI::App& app, Overrides& overrides) {
       ->check(CLI::Range(0.0, 1.0));
 }
 
+void add_improvement_options(CLI::App& app, Overrides& overrides) {
+  app.add_flag_callback(
+      "--improve", [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.improve.enabled = true; }); },
+      "improve and thin out the mesh after the deformation");
+  add_override<double>(app, overrides, "--goal", "improvement: no dihedral angle below this, degrees [20]",
+                       [](MeshImageOptions& o) -> double& { return o.improve.min_dihedral_deg; });
+  add_override<double>(app, overrides, "--decimate-dihedral", "collapses leave no angle below this, degrees [20]",
+                       [](MeshImageOptions& o) -> double& { return o.improve.decimate_dihedral_deg; });
+  add_override<double>(app, overrides, "--cover", "reach of surface vertices, voxel diagonals [1]",
+                       [](MeshImageOptions& o) -> double& { return o.improve.reach_diagonals; });
+  add_override<double>(app, overrides, "--deviation", "of facets, voxel diagonals [.25]",
+                       [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; });
+  add_override<double>(app, overrides, "--surface-weight", "pull to the boundary [30]",
+                       [](MeshImageOptions& o) -> double& { return o.improve.surface_weight; });
+  add_override<int>(app, overrides, "--decimation-rounds", "rounds [3]",
+                    [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; });
+  add_override<int>(app, overrides, "--repair-rounds", "rounds [3]",
+                    [](MeshImageOptions& o) -> int& { return o.improve.repair_rounds; });
+}
+
 void add_mixed_options(CLI::App& app, Overrides& overrides) {
   app.add_flag_callback(
       "--mixed", [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.mixed = true; }); },

@@ -20,6 +20,7 @@ void add_cleaning_options(CLI::App& app, Overrides& overrides);
 /// --topology-checks.
 void add_lattice_options(CLI::App& app, Overrides& overrides);
 /// Mixed elements: --mixed.
+void add_improvement_options(CLI::App& app, Overrides& overrides);
 void add_mixed_options(CLI::App& app, Overrides& overrides);
 /// Deformation: --iterations, --connectivity, --target-position, --displacement, --keep-outliers, --reach,
 /// --attempts, --on-failure, --young-pa, --poisson, --min-dihedral, --min-scaled-jacobian.

@@ -210,6 +210,12 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
                                 ": elements stay below the minimum quality; --on-failure recover goes on");
     }
   }
+  if (options.improve.enabled) {
+    report.improve = log.run("improvement", 0.8, [&] {
+      return improve_mesh(mesh, image, options.improve, [&](int) {});
+    });
+    log.dump("5_improved_mesh", mesh);
+  }
   return to_physical_mesh(mesh, image);
 }
 

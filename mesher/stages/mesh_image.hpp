@@ -13,6 +13,7 @@
 #include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/clean_image.hpp"
 #include "mesher/stages/deform_mesh.hpp"
+#include "mesher/stages/improve_mesh.hpp"
 #include "mesher/stages/mix_elements.hpp"
 #include "mesher/stages/refine_lattice.hpp"
 
@@ -27,6 +28,7 @@ struct MeshImageOptions {
   bool mixed = false;  ///< hexes and pyramids in uniform regions
   MixOptions mix;
   DeformOptions deform;
+  ImproveOptions improve;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
 
@@ -41,6 +43,7 @@ struct MeshImageReport {
   TopologyReport topology;
   MixReport mix;
   DeformReport deform;
+  ImproveReport improve;
   std::vector<std::string> warnings;
 };
 

@@ -1,0 +1,33 @@
+#include "mesher/improve/patch.hpp"
+
+#include <algorithm>
+
+namespace cbc3d {
+
+double Patch::facet_deviation(const Vec3& p, const Vec3& q, const Vec3& r, MaterialId inner,
+                              MaterialId outer) const {
+  double largest = boundary.sample((p + q + r) / 3, inner, outer).deviation_mm;
+  for (const Vec3& middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) {
+    largest = std::max(largest, boundary.sample(middle, inner, outer).deviation_mm);
+  }
+  return largest;
+}
+
+void Patch::renew_sets(std::span<const FreshTet> fresh_tets) {
+  around_other.clear();
+  for (const FreshTet& tet : fresh_tets) {
+    for (const VertexId v : tet.nodes) {
+      if (!mesh.locked(v) && std::find(around_other.begin(), around_other.end(), v) == around_other.end()) {
+        around_other.push_back(v);
+      }
+    }
+  }
+  for (const VertexId v : around_other) {
+    if (mesh.in_use(v)) {
+      mesh.star(v, star_other);
+      sets[v] = mesh.materials(v, star_other);
+    }
+  }
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,122 @@
+// A tet mesh that changes: vertices move, groups of tets are replaced by others.
+//
+// Notation: star      the tets around a vertex;
+//           ring      the vertices around an edge, in order, with the tets between them;
+//           facet     a face between two materials; the outside counts as background;
+//           locked    a vertex that must stay, with every face between locked vertices alone.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/stages/tet_adjacency.hpp"
+
+namespace cbc3d {
+
+/// A tet to be put in place of others.
+struct FreshTet {
+  std::array<VertexId, 4> nodes;
+  MaterialId material;
+};
+
+/// A facet at a vertex: the other two nodes, counter-clockwise seen from `outer`, and what it parts.
+struct FacetAt {
+  VertexId first, second;
+  MaterialId inner, outer;  ///< inner is never less than outer
+};
+
+/// The tets around the edge a, b: tets[i] has the ring vertices i and i + 1, and (a, b, ring[i], ring[i + 1])
+/// is positive. A closed ring has as many tets as vertices, an open one (an edge on the outside) one less.
+struct EdgeRing {
+  std::vector<VertexId> vertices;
+  std::vector<TetId> tets;
+  bool closed = false;
+};
+
+/// The distinct materials around a vertex, ascending; the outside counts as background.
+struct MaterialSet {
+  static constexpr std::size_t kCapacity = 8;
+  std::array<MaterialId, kCapacity> ids{};
+  std::uint8_t size = 0;
+  bool overflow = false;  ///< more than kCapacity
+
+  void add(MaterialId material);
+  [[nodiscard]] bool has(MaterialId material) const {
+    return std::find(ids.begin(), ids.begin() + size, material) != ids.begin() + size;
+  }
+  [[nodiscard]] bool contains(const MaterialSet& other) const;
+};
+
+class TetComplex {
+ public:
+  /// All tets must be positive and conforming. `locked` has one entry a vertex.
+  TetComplex(std::vector<Vec3> points, TetNodes tets, std::vector<MaterialId> materials,
+             std::vector<std::uint8_t> locked);
+
+  [[nodiscard]] std::size_t vertex_count() const { return points_.size(); }
+  [[nodiscard]] std::size_t tet_slots() const { return tets_.size(); }
+  [[nodiscard]] bool alive(TetId t) const { return tets_[t][0] != kNoVertex; }
+  [[nodiscard]] bool in_use(VertexId v) const { return tet_at_[v] != kNoTet; }
+  [[nodiscard]] bool locked(VertexId v) const { return locked_[v] != 0; }
+  [[nodiscard]] const std::array<VertexId, 4>& nodes(TetId t) const { return tets_[t]; }
+  [[nodiscard]] MaterialId material(TetId t) const { return materials_[t]; }
+  [[nodiscard]] TetId across(TetId t, unsigned n) const { return across_[t][n]; }
+  [[nodiscard]] MaterialId material_across(TetId t, unsigned n) const {
+    return across_[t][n] == kNoTet ? kBackground : materials_[across_[t][n]];
+  }
+  [[nodiscard]] const Vec3& point(VertexId v) const { return points_[v]; }
+  void move(VertexId v, const Vec3& to) { points_[v] = to; }
+  void lock(VertexId v) { locked_[v] = 1; }
+  [[nodiscard]] double sine_squared(TetId t) const;
+
+  /// The star of a vertex that is in use; complete only where the vertex is not locked.
+  void star(VertexId v, std::vector<TetId>& tets) const;
+  /// The vertices joined to v by an edge of the star's tets, in order of first sight.
+  void neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& vertices) const;
+  /// The materials of a star, the outside included where the star has faces towards it.
+  [[nodiscard]] MaterialSet materials(VertexId v, std::span<const TetId> star) const;
+  /// The facets at v, each once.
+  void facets(VertexId v, std::span<const TetId> star, std::vector<FacetAt>& facets) const;
+  /// The ring of an edge, of which one end is not locked; false when no tet has both.
+  bool ring(VertexId a, VertexId b, EdgeRing& ring) const;
+
+  /// Replaces tets by others that fill the same space (or, at the outside, another). Vertices that lose their
+  /// last tet are out of use afterwards.
+  void replace(std::span<const TetId> old, std::span<const FreshTet> fresh);
+  /// A new vertex without tets.
+  VertexId add_vertex(const Vec3& point);
+
+  [[nodiscard]] unsigned node_index(TetId t, VertexId v) const {
+    const auto& n = tets_[t];
+    return n[0] == v ? 0 : n[1] == v ? 1 : n[2] == v ? 2 : 3;
+  }
+  [[nodiscard]] bool has_node(TetId t, VertexId v) const {
+    const auto& n = tets_[t];
+    return n[0] == v || n[1] == v || n[2] == v || n[3] == v;
+  }
+
+ private:
+  struct OpenFace {
+    std::array<VertexId, 3> key;  // sorted
+    TetId tet;
+    std::uint8_t node;
+  };
+  TetId take_slot();
+  void collect_faces(std::span<const TetId> old);
+  void link_faces();
+
+  std::vector<Vec3> points_;
+  TetNodes tets_;
+  std::vector<MaterialId> materials_;
+  std::vector<std::array<TetId, 4>> across_;
+  std::vector<TetId> tet_at_;  // some tet of each vertex
+  std::vector<std::uint8_t> locked_;
+  std::vector<TetId> free_;
+  std::vector<OpenFace> faces_;  // scratch of replace
+  mutable std::vector<std::uint32_t> seen_;
+  mutable std::uint32_t stamp_ = 0;
+};
+
+}  // namespace cbc3d

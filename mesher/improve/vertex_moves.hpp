@@ -1,0 +1,24 @@
+// Moves of single vertices: towards well-shaped tets and the boundary, and out of the worst angle.
+#pragma once
+
+#include "mesher/improve/patch.hpp"
+
+namespace cbc3d {
+
+struct RelaxOptions {
+  double surface_weight = 30;  ///< pull to the boundary against the tets' shape
+  double max_step = 0.5;       ///< of the mean distance to the neighbours
+  double skip_below_mm = 0;    ///< a step shorter than this is not taken
+};
+
+/// One sweep over all vertices in order (Gauss-Seidel): each takes a Newton step that lowers
+///   sum over its tets of (inverse mean ratio)^3 + weight / 2 * sum over its boundaries of (distance / h)^2,
+/// h the mean distance to its neighbours, halved until the energy falls, no tet turns over and every boundary
+/// voxel keeps its host. Returns the number of vertices moved.
+std::size_t relax_vertices(Patch& patch, const RelaxOptions& options);
+
+/// Moves the vertices of tets whose worst angle is below the goal, wherever that lifts the worst angle of the
+/// vertex's star. Returns the number of vertices moved.
+std::size_t climb_vertices(Patch& patch, double goal_sine_squared);
+
+}  // namespace cbc3d

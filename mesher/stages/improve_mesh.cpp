@@ -1,0 +1,106 @@
+#include "mesher/stages/improve_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesher/core/progress.hpp"
+#include "mesher/improve/edge_collapse.hpp"
+#include "mesher/improve/edge_removal.hpp"
+#include "mesher/improve/mesh_patches.hpp"
+#include "mesher/improve/tet_shape.hpp"
+#include "mesher/improve/vertex_moves.hpp"
+
+namespace cbc3d {
+namespace {
+
+double worst_sine_squared(const MaterialMesh& mesh) {
+  double worst = 1;
+#pragma omp parallel for schedule(static) reduction(min : worst)
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets[t];
+    worst = std::min(worst, min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
+                                             mesh.points[n[3]]));
+  }
+  return worst;
+}
+
+double degrees(double sine_squared) {
+  return sine_squared <= 0 ? 0 : std::asin(std::sqrt(std::min(1.0, sine_squared))) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
+                           const std::function<void(int round)>& on_round) {
+  ImproveReport report;
+  report.tets_before = mesh.tets.size();
+  report.min_dihedral_before_deg = degrees(worst_sine_squared(mesh));
+  const double diagonal = image.frame.voxel_diagonal_mm();
+  const ImageBoundary boundary(image, options.boundary);
+  const double reach = options.reach_diagonals * diagonal;
+  const auto timed = [&](const std::string& name, const auto& part) {
+    const Stopwatch watch;
+    part();
+    report.part_seconds.emplace_back(name, watch.seconds());
+  };
+
+  std::vector<CoverPoint> points;
+  std::vector<VertexId> hosts;
+  timed("hosts", [&] {
+    points = boundary_points(image);
+    hosts = nearest_hosts(points, mesh.points, vertex_materials(mesh), reach);
+  });
+  report.boundary_points = points.size();
+  report.uncovered_points = static_cast<std::size_t>(std::count(hosts.begin(), hosts.end(), kNoVertex));
+
+  std::fprintf(stderr, "points %zu uncovered %zu\n", points.size(), report.uncovered_points);
+  PatchRules rules{boundary, {options.deviation_diagonals * diagonal, diagonal}, points, reach};
+  const double goal = sine_squared_of_deg(options.min_dihedral_deg);
+  const double good = sine_squared_of_deg(35);
+  const double threshold = sine_squared_of_deg(options.decimate_dihedral_deg);
+  int round = 0;
+  const auto in_patches = [&](const std::string& name, const auto& improve) {
+    on_round(round);
+    timed(name, [&] { improve_in_patches(mesh, hosts, rules, round++, improve); });
+    std::fprintf(stderr, "%s %zu tets %.2f deg %.2f s\n", name.c_str(), mesh.tets.size(),
+                 degrees(worst_sine_squared(mesh)), report.part_seconds.back().second);
+  };
+
+  const RelaxOptions relax{options.surface_weight, 0.5, 0.01 * diagonal};
+  for (int i = 0; i < 2; ++i) {
+    in_patches("relax", [&](Patch& patch) {
+      relax_vertices(patch, relax);
+      relax_vertices(patch, relax);
+      remove_edges(patch, good);
+      relax_vertices(patch, relax);
+    });
+  }
+  for (int i = 0; i < options.decimation_rounds; ++i) {
+    in_patches("decimate", [&](Patch& patch) {
+      collapse_edges(patch, {threshold, 2.5, 0, false});
+      remove_edges(patch, good);
+      relax_vertices(patch, relax);
+      relax_vertices(patch, relax);
+      collapse_edges(patch, {threshold, 2.5, 0, false});
+      relax_vertices(patch, relax);
+      remove_edges(patch, good);
+    });
+  }
+  for (int i = 0; i < options.repair_rounds; ++i) {
+    in_patches("repair", [&](Patch& patch) {
+      for (int k = 0; k < 3; ++k) {
+        climb_vertices(patch, goal);
+        remove_edges(patch, goal);
+        collapse_edges(patch, {goal, 2.5, 0, true});
+      }
+      climb_vertices(patch, goal);
+    });
+  }
+  drop_unused_vertices(mesh);
+  report.tets_after = mesh.tets.size();
+  report.min_dihedral_after_deg = degrees(worst_sine_squared(mesh));
+  return report;
+}
+
+}  // namespace cbc3d
