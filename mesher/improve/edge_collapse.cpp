@@ -55,8 +55,9 @@ class EdgeCollapser {
     rank_targets(u);
     for (const auto& [quality, v] : targets_) {
       if (keeps_shape(u, v) && (!on_facets_ || facets_allow(u, v))) {
-        collapse(u, v);
-        return true;
+        if (collapse(u, v)) {
+          return true;
+        }
       }
     }
     return false;
@@ -263,7 +264,7 @@ class EdgeCollapser {
     return false;
   }
 
-  void collapse(VertexId u, VertexId v) {
+  bool collapse(VertexId u, VertexId v) {
     patch_.fresh.clear();
     for (const TetId t : patch_.star) {
       if (!mesh_.has_node(t, v)) {
@@ -276,14 +277,17 @@ class EdgeCollapser {
         on_facets_ || std::any_of(patch_.around.begin(), patch_.around.end(), [&](VertexId w) {
           return !mesh_.locked(w) && patch_.on_boundary(w);
         });
+    if (!mesh_.replace(patch_.star, patch_.fresh)) {
+      return false;
+    }
     if (on_facets_) {
       patch_.cover.commit(u);
     }
-    mesh_.replace(patch_.star, patch_.fresh);
     patch_.sets[u] = {};
     if (near_facets) {
       patch_.renew_sets(patch_.fresh);
     }
+    return true;
   }
 
   Patch& patch_;

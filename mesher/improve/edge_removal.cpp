@@ -45,7 +45,9 @@ class EdgeRemover {
     if (on_facets_ && !facets_allow()) {
       return false;
     }
-    mesh_.replace(ring_.tets, patch_.fresh);
+    if (!mesh_.replace(ring_.tets, patch_.fresh)) {
+      return false;
+    }
     if (on_facets_) {
       patch_.renew_sets(patch_.fresh);
     }

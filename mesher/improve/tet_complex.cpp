@@ -5,6 +5,16 @@
 #include "mesher/improve/tet_shape.hpp"
 
 namespace cbc3d {
+namespace {
+
+std::array<VertexId, 3> face_key(const std::array<VertexId, 4>& nodes, unsigned opposite) {
+  std::array<VertexId, 3> key = {nodes[kTetFace[opposite][0]], nodes[kTetFace[opposite][1]],
+                                 nodes[kTetFace[opposite][2]]};
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+}  // namespace
 
 void MaterialSet::add(MaterialId material) {
   const auto end = ids.begin() + size;
@@ -141,7 +151,7 @@ bool TetComplex::ring(VertexId a, VertexId b, EdgeRing& ring) const {
     // Parity of (a, b, e0, e1) against the tet's own order.
     const unsigned ia = node_index(t, a);
     const unsigned ib = node_index(t, b);
-    if ((ia + ib - (ia < ib ? 1 : 0)) % 2 == 1) {
+    if ((ia + ib - (ia < ib ? 1U : 0U)) % 2 == 1) {
       std::swap(e[0], e[1]);
     }
     return e;
@@ -190,56 +200,74 @@ TetId TetComplex::take_slot() {
   return static_cast<TetId>(tets_.size() - 1);
 }
 
-void TetComplex::collect_faces(std::span<const TetId> old) {
+void TetComplex::collect_faces(std::span<const TetId> old, std::span<const FreshTet> fresh) {
   faces_.clear();
-  if (++stamp_ == 0) {
-    std::fill(seen_.begin(), seen_.end(), 0);
-    stamp_ = 1;
-  }
-  for (const TetId t : old) {
-    seen_[t] = stamp_;
-  }
   for (const TetId t : old) {
     for (unsigned n = 0; n < 4; ++n) {
       const TetId outer = across_[t][n];
-      if (outer == kNoTet || seen_[outer] == stamp_) {
-        continue;
+      if (outer != kNoTet && std::find(old.begin(), old.end(), outer) == old.end()) {
+        std::uint8_t back = 0;
+        while (across_[outer][back] != t) {
+          ++back;
+        }
+        faces_.push_back({face_key(tets_[t], n), outer, back, false});
       }
-      std::uint8_t back = 0;
-      while (across_[outer][back] != t) {
-        ++back;
-      }
-      std::array<VertexId, 3> key = {tets_[t][kTetFace[n][0]], tets_[t][kTetFace[n][1]],
-                                     tets_[t][kTetFace[n][2]]};
-      std::sort(key.begin(), key.end());
-      faces_.push_back({key, outer, back});
-      across_[outer][back] = kNoTet;
     }
   }
-}
-
-void TetComplex::link_faces() {
-  std::sort(faces_.begin(), faces_.end(), [](const OpenFace& a, const OpenFace& b) { return a.key < b.key; });
-  for (std::size_t i = 0; i + 1 < faces_.size(); ++i) {
-    if (faces_[i].key == faces_[i + 1].key) {
-      across_[faces_[i].tet][faces_[i].node] = faces_[i + 1].tet;
-      across_[faces_[i + 1].tet][faces_[i + 1].node] = faces_[i].tet;
-      ++i;
+  for (TetId t = 0; t < fresh.size(); ++t) {
+    for (std::uint8_t n = 0; n < 4; ++n) {
+      faces_.push_back({face_key(fresh[t].nodes, n), t, n, true});
     }
   }
+  std::sort(faces_.begin(), faces_.end(), [](const OpenFace& a, const OpenFace& b) {
+    return a.key != b.key ? a.key < b.key : a.fresh < b.fresh;
+  });
 }
 
-void TetComplex::replace(std::span<const TetId> old, std::span<const FreshTet> fresh) {
-  collect_faces(old);
+bool TetComplex::is_elsewhere(const Face& face, std::span<const TetId> old) const {
+  const auto free = std::find_if(face.begin(), face.end(), [&](VertexId v) { return !locked(v) && in_use(v); });
+  if (free == face.end()) {
+    return false;
+  }
+  thread_local std::vector<TetId> around;
+  star(*free, around);
+  return std::any_of(around.begin(), around.end(), [&](TetId t) {
+    return has_node(t, face[0]) && has_node(t, face[1]) && has_node(t, face[2]) &&
+           std::find(old.begin(), old.end(), t) == old.end();
+  });
+}
+
+bool TetComplex::faces_fit(std::span<const TetId> old) const {
+  for (std::size_t i = 0; i < faces_.size();) {
+    std::size_t same = 1;
+    while (i + same < faces_.size() && faces_[i + same].key == faces_[i].key) {
+      ++same;
+    }
+    const bool fresh = faces_[i].fresh;  // those that were there come first
+    if (same > 2 || (fresh && is_elsewhere(faces_[i].key, old))) {
+      return false;
+    }
+    if (same == 2 && fresh && locked(faces_[i].key[0]) && locked(faces_[i].key[1]) && locked(faces_[i].key[2])) {
+      return false;  // another patch might make the same face
+    }
+    i += same;
+  }
+  return true;
+}
+
+void TetComplex::remove(std::span<const TetId> old) {
   for (const TetId t : old) {
     for (const VertexId v : tets_[t]) {
       tet_at_[v] = kNoTet;
     }
   }
   for (const OpenFace& face : faces_) {  // vertices of the old tets that still have others
-    for (const VertexId v : tets_[face.tet]) {
-      if (tet_at_[v] == kNoTet) {
-        tet_at_[v] = face.tet;
+    if (!face.fresh) {
+      across_[face.tet][face.node] = kNoTet;
+      for (const VertexId v : tets_[face.tet]) {
+        if (tet_at_[v] == kNoTet) {
+          tet_at_[v] = face.tet;
+        }
       }
     }
   }
@@ -247,20 +275,34 @@ void TetComplex::replace(std::span<const TetId> old, std::span<const FreshTet> f
     tets_[t].fill(kNoVertex);
     free_.push_back(t);
   }
+}
+
+bool TetComplex::replace(std::span<const TetId> old, std::span<const FreshTet> fresh) {
+  collect_faces(old, fresh);
+  if (!faces_fit(old)) {
+    return false;
+  }
+  remove(old);
+  placed_.clear();
   for (const FreshTet& tet : fresh) {
     const TetId t = take_slot();
+    placed_.push_back(t);
     tets_[t] = tet.nodes;
     materials_[t] = tet.material;
     across_[t] = {kNoTet, kNoTet, kNoTet, kNoTet};
-    for (std::uint8_t n = 0; n < 4; ++n) {
-      std::array<VertexId, 3> key = {tet.nodes[kTetFace[n][0]], tet.nodes[kTetFace[n][1]],
-                                     tet.nodes[kTetFace[n][2]]};
-      std::sort(key.begin(), key.end());
-      faces_.push_back({key, t, n});
-      tet_at_[tet.nodes[n]] = t;
+    for (const VertexId v : tet.nodes) {
+      tet_at_[v] = t;
     }
   }
-  link_faces();
+  for (std::size_t i = 0; i + 1 < faces_.size(); ++i) {
+    if (faces_[i].key == faces_[i + 1].key) {
+      const auto tet = [&](const OpenFace& f) { return f.fresh ? placed_[f.tet] : f.tet; };
+      across_[tet(faces_[i])][faces_[i].node] = tet(faces_[i + 1]);
+      across_[tet(faces_[i + 1])][faces_[i + 1].node] = tet(faces_[i]);
+      ++i;
+    }
+  }
+  return true;
 }
 
 VertexId TetComplex::add_vertex(const Vec3& point) {

@@ -83,8 +83,9 @@ class TetComplex {
   bool ring(VertexId a, VertexId b, EdgeRing& ring) const;
 
   /// Replaces tets by others that fill the same space (or, at the outside, another). Vertices that lose their
-  /// last tet are out of use afterwards.
-  void replace(std::span<const TetId> old, std::span<const FreshTet> fresh);
+  /// last tet are out of use afterwards. False, and nothing done, where a face would belong to more than two
+  /// tets, as can happen where the outside is pinched.
+  bool replace(std::span<const TetId> old, std::span<const FreshTet> fresh);
   /// A new vertex without tets.
   VertexId add_vertex(const Vec3& point);
 
@@ -98,14 +99,18 @@ class TetComplex {
   }
 
  private:
+  using Face = std::array<VertexId, 3>;
   struct OpenFace {
-    std::array<VertexId, 3> key;  // sorted
-    TetId tet;
-    std::uint8_t node;
+    Face key;          // sorted
+    TetId tet;         // or the index of a fresh one
+    std::uint8_t node;  // opposite to the face
+    bool fresh;
   };
   TetId take_slot();
-  void collect_faces(std::span<const TetId> old);
-  void link_faces();
+  void collect_faces(std::span<const TetId> old, std::span<const FreshTet> fresh);
+  [[nodiscard]] bool faces_fit(std::span<const TetId> old) const;
+  [[nodiscard]] bool is_elsewhere(const Face& face, std::span<const TetId> old) const;
+  void remove(std::span<const TetId> old);
 
   std::vector<Vec3> points_;
   TetNodes tets_;
@@ -115,6 +120,7 @@ class TetComplex {
   std::vector<std::uint8_t> locked_;
   std::vector<TetId> free_;
   std::vector<OpenFace> faces_;  // scratch of replace
+  std::vector<TetId> placed_;    // likewise
   mutable std::vector<std::uint32_t> seen_;
   mutable std::uint32_t stamp_ = 0;
 };

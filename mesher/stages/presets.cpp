@@ -12,7 +12,10 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
   MeshImageOptions options;
   if (name == "quality") {
     options.clean.region_tolerance = 0;
-    options.refine.max_distance_mm = 2 * frame.voxel_diagonal_mm();
+    options.refine.max_distance_mm = frame.voxel_diagonal_mm();
+    options.topology.enabled = true;
+    options.deform.iterations = 0;
+    options.improve.enabled = true;
     options.deform.displacement.target_position = TargetPosition::voxel_faces;
     options.deform.displacement.pair_distance = 0.8;
     return options;
