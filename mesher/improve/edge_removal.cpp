@@ -1,7 +1,7 @@
 #include "mesher/improve/edge_removal.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "mesher/improve/tet_shape.hpp"
 
@@ -20,51 +20,78 @@ class EdgeRemover {
  public:
   explicit EdgeRemover(Patch& patch) : patch_(patch), mesh_(patch.mesh), ring_(patch.ring) {}
 
+  /// Removes the edge where that lifts the worst angle of the tets round it.
   bool try_remove(VertexId a, VertexId b) {
-    if ((mesh_.locked(a) && mesh_.locked(b)) || !mesh_.ring(a, b, ring_) ||
-        ring_.vertices.size() > kLargestRing || ring_.vertices.size() < 3) {
+    if (!load(a, b)) {
       return false;
     }
-    a_ = a;
-    b_ = b;
-    if (!find_sectors()) {
+    const double before = worst_of_ring();
+    return (sectors_.empty() || retriangulate(before)) && (!on_facets_ || facets_allow(false)) && commit();
+  }
+
+  /// Flips an edge of an interface where that makes the interface flatter and leaves no angle below the floor.
+  bool try_flatten(VertexId a, VertexId b, double floor) {
+    if (!load(a, b) || !on_facets_) {
       return false;
     }
-    double before = 1;
-    for (const TetId t : ring_.tets) {
-      before = std::min(before, mesh_.sine_squared(t));
-    }
-    patch_.fresh.clear();
-    double after = 1;
-    for (const Sector& sector : sectors_) {
-      after = std::min(after, triangulate(sector, before));
-      if (after <= before) {
-        return false;
-      }
-    }
-    if (on_facets_ && !facets_allow()) {
-      return false;
-    }
-    if (!mesh_.replace(ring_.tets, patch_.fresh)) {
-      return false;
-    }
-    if (on_facets_) {
-      patch_.renew_sets(patch_.fresh);
-    }
-    return true;
+    const double before = worst_of_ring();
+    return (sectors_.empty() || retriangulate(std::min(before * 0.999, floor))) && facets_allow(true) && commit();
   }
 
  private:
   [[nodiscard]] MaterialId ring_material(std::size_t i) const { return mesh_.material(ring_.tets[i]); }
 
-  /// Splits the ring at its facets; false where the edge must stay.
+  bool load(VertexId a, VertexId b) {
+    if ((mesh_.locked(a) && mesh_.locked(b)) || !mesh_.ring(a, b, ring_) ||
+        ring_.vertices.size() > kLargestRing) {
+      return false;
+    }
+    a_ = a;
+    b_ = b;
+    return find_sectors();
+  }
+
+  [[nodiscard]] double worst_of_ring() const {
+    double worst = 1;
+    for (const TetId t : ring_.tets) {
+      worst = std::min(worst, mesh_.sine_squared(t));
+    }
+    return worst;
+  }
+
+  bool retriangulate(double floor) {
+    patch_.fresh.clear();
+    return std::all_of(sectors_.begin(), sectors_.end(),
+                       [&](const Sector& sector) { return triangulate(sector, floor) > floor; });
+  }
+
+  bool commit() {
+    if (sectors_.empty()) {
+      patch_.fresh.clear();
+    }
+    if (!mesh_.replace(ring_.tets, patch_.fresh)) {
+      return false;
+    }
+    if (on_facets_) {
+      patch_.renew_sets_of(ring_.vertices);
+      patch_.renew_sets_of(std::array{a_, b_});
+    }
+    return true;
+  }
+
+  /// Splits the ring at its facets; false where the edge must stay. A material with a single tet at the edge (an
+  /// ear, with two faces on the interface) gives that tet up to the other material or to the outside.
   bool find_sectors() {
     sectors_.clear();
+    ear_ = false;
     const std::size_t n = ring_.vertices.size();
     if (!ring_.closed) {
       on_facets_ = true;
       diagonal_ = {0, n - 1};
-      sectors_.push_back({0, n - 1, ring_material(0)});
+      ear_ = n == 2;
+      if (!ear_) {
+        sectors_.push_back({0, n - 1, ring_material(0)});
+      }
       return std::all_of(ring_.tets.begin(), ring_.tets.end(),
                          [&](TetId t) { return mesh_.material(t) == ring_material(0); });
     }
@@ -85,11 +112,13 @@ class EdgeRemover {
     }
     diagonal_ = {facet[0], facet[1]};
     const std::size_t first = facet[1] - facet[0];
-    if (first < 2 || n - first < 2) {
-      return false;  // one tet of a material: its removal would be a relabelling
+    ear_ = first == 1 || n - first == 1;
+    if (first > 1) {
+      sectors_.push_back({facet[0], facet[1], ring_material(facet[0])});
     }
-    sectors_.push_back({facet[0], facet[1], ring_material(facet[0])});
-    sectors_.push_back({facet[1], facet[0] + n, ring_material(facet[1])});
+    if (n - first > 1) {
+      sectors_.push_back({facet[1], facet[0] + n, ring_material(facet[1])});
+    }
     return true;
   }
 
@@ -147,35 +176,59 @@ class EdgeRemover {
     emit(sector, k, j);
   }
 
-  /// A flip of an interface must keep a manifold, the classes of its vertices, and stay near the boundary.
-  bool facets_allow() {
+  /// A flip of an interface must keep a manifold and the classes of its vertices, stay near the boundary, and
+  /// not fold the interface; when it must `flatten`, the interface is to become clearly flatter.
+  bool facets_allow(bool flatten) {
     const VertexId p = vertex(diagonal_[0]);
     const VertexId q = vertex(diagonal_[1]);
-    if (mesh_.locked(a_) || mesh_.locked(b_) || mesh_.locked(p) || mesh_.locked(q) || joined(p, q) ||
-        facets_at(a_) < 4 || facets_at(b_) < 4) {
+    if (mesh_.locked(a_) || mesh_.locked(b_) || mesh_.locked(p) || mesh_.locked(q)) {
       return false;
     }
+    const Vec3& pa = mesh_.point(a_);
+    const Vec3& pb = mesh_.point(b_);
+    const Vec3& pp = mesh_.point(p);
+    const Vec3& pq = mesh_.point(q);
+    const double old_fold = fold_cosine(pa, pb, pp, pq);
+    const double new_fold = fold_cosine(pp, pq, pb, pa);
+    if (flatten ? new_fold < old_fold + 0.1 : new_fold < std::min(0.5, old_fold)) {
+      return false;
+    }
+    if ((ear_ ? on_interface(p, q) : joined(p, q)) || facets_at(a_) < 4 || facets_at(b_) < 4) {
+      return false;
+    }
+    const auto [inner, outer] = parted_materials();
+    const double after = std::max(patch_.facet_deviation(pa, pp, pq, inner, outer),
+                                  patch_.facet_deviation(pb, pp, pq, inner, outer));
+    if (after <= patch_.guards.deviation_mm) {
+      return true;
+    }
+    return after <= std::max(patch_.facet_deviation(pa, pb, pp, inner, outer),
+                             patch_.facet_deviation(pa, pb, pq, inner, outer));
+  }
+
+  [[nodiscard]] std::pair<MaterialId, MaterialId> parted_materials() const {
     const MaterialId m = ring_material(0);
     MaterialId other = kBackground;
     for (const TetId t : ring_.tets) {
       other = mesh_.material(t) != m ? mesh_.material(t) : other;
     }
-    const MaterialId inner = std::max(m, other);
-    const MaterialId outer = std::min(m, other);
-    const Vec3& pa = mesh_.point(a_);
-    const Vec3& pb = mesh_.point(b_);
-    const Vec3& pp = mesh_.point(p);
-    const Vec3& pq = mesh_.point(q);
-    const double before = std::max(patch_.facet_deviation(pa, pb, pp, inner, outer),
-                                   patch_.facet_deviation(pa, pb, pq, inner, outer));
-    const double after = std::max(patch_.facet_deviation(pa, pp, pq, inner, outer),
-                                  patch_.facet_deviation(pb, pp, pq, inner, outer));
-    if (after > std::max(patch_.guards.deviation_mm, before)) {
-      return false;
-    }
-    // The two facets may not fold: seen along the old pair's normal both new ones show the same side.
-    const Vec3 normal = (pb - pa).cross(pp - pa) + (pq - pa).cross(pb - pa);
-    return (pp - pq).cross(pa - pq).dot(normal) * (pb - pq).cross(pp - pq).dot(normal) > 0;
+    return {std::max(m, other), std::min(m, other)};
+  }
+
+  /// Cosine of the angle between the normals of triangles (e, f, g) and (f, e, h): 1 when they are flat.
+  static double fold_cosine(const Vec3& e, const Vec3& f, const Vec3& g, const Vec3& h) {
+    const Vec3 n = (f - e).cross(g - e);
+    const Vec3 m = (e - f).cross(h - f);
+    const double lengths = std::sqrt(n.squared_norm() * m.squared_norm());
+    return lengths > 0 ? n.dot(m) / lengths : -1;
+  }
+
+  /// True when an edge lies on some interface or on the outside.
+  [[nodiscard]] bool on_interface(VertexId p, VertexId q) {
+    EdgeRing& ring = patch_.ring_other;
+    return !mesh_.ring(p, q, ring) || !ring.closed ||
+           std::any_of(ring.tets.begin(), ring.tets.end(),
+                       [&](TetId t) { return mesh_.material(t) != mesh_.material(ring.tets[0]); });
   }
 
   [[nodiscard]] bool joined(VertexId p, VertexId q) {
@@ -195,12 +248,32 @@ class EdgeRemover {
   VertexId a_ = 0, b_ = 0;
   std::vector<Sector> sectors_;
   std::array<std::size_t, 2> diagonal_{};
-  bool on_facets_ = false;
+  bool on_facets_ = false, ear_ = false;
   std::array<std::array<double, kLargestRing>, kLargestRing> best_{};
   std::array<std::array<std::size_t, kLargestRing>, kLargestRing> middle_{};
 };
 
 }  // namespace
+
+std::size_t flatten_interfaces(Patch& patch, double floor_sine_squared) {
+  EdgeRemover remover(patch);
+  std::size_t flipped = 0;
+  std::vector<FacetAt> facets;
+  for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
+    if (patch.mesh.locked(v) || !patch.mesh.in_use(v) || patch.sets[v].size != 2) {
+      continue;
+    }
+    patch.mesh.star(v, patch.star);
+    patch.mesh.facets(v, patch.star, facets);
+    for (const FacetAt& f : facets) {
+      if (f.first > v && remover.try_flatten(v, f.first, floor_sine_squared)) {
+        ++flipped;
+        break;
+      }
+    }
+  }
+  return flipped;
+}
 
 std::size_t remove_edges(Patch& patch, double goal_sine_squared) {
   EdgeRemover remover(patch);

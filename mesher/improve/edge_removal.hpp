@@ -13,4 +13,8 @@ namespace cbc3d {
 /// facets, with the guards of the patch; edges where more than two materials meet stay. Returns the number removed.
 std::size_t remove_edges(Patch& patch, double goal_sine_squared);
 
+/// Flips edges of interfaces where that makes the interface flatter, if no new tet has a worse angle than the
+/// floor (or than those before). Returns the number flipped.
+std::size_t flatten_interfaces(Patch& patch, double floor_sine_squared);
+
 }  // namespace cbc3d

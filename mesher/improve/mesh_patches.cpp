@@ -208,7 +208,7 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
     Patch patch{TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
                            std::move(local.locked)),
                 SurfaceCover(rules.points, rules.reach_mm), {}, rules.boundary, rules.guards, {}, {}, {}, {}, {},
-                {}, {}, {}};
+                {}, {}, {}, {}};
     patch.sets.resize(local.vertices.size());
     patch.cover.resize(local.vertices.size());
     set_up_vertices(patch, local.tets_at);

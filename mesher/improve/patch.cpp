@@ -22,8 +22,12 @@ void Patch::renew_sets(std::span<const FreshTet> fresh_tets) {
       }
     }
   }
-  for (const VertexId v : around_other) {
-    if (mesh.in_use(v)) {
+  renew_sets_of(around_other);
+}
+
+void Patch::renew_sets_of(std::span<const VertexId> vertices) {
+  for (const VertexId v : vertices) {
+    if (!mesh.locked(v) && mesh.in_use(v)) {
       mesh.star(v, star_other);
       sets[v] = mesh.materials(v, star_other);
     }

@@ -26,13 +26,14 @@ struct Patch {
                                        MaterialId outer) const;
   /// Renews `sets` for the nodes of tets that were put in.
   void renew_sets(std::span<const FreshTet> fresh);
+  void renew_sets_of(std::span<const VertexId> vertices);
 
   // Scratch of the operations.
   std::vector<TetId> star, star_other;
   std::vector<FacetAt> facets, facets_other;
   std::vector<VertexId> around, around_other;
   std::vector<FreshTet> fresh;
-  EdgeRing ring;
+  EdgeRing ring, ring_other;
 };
 
 }  // namespace cbc3d

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "mesher/stages/size_rank.hpp"
 #include "mesher/stages/vertex_star.hpp"
@@ -43,26 +44,46 @@ bool is_manifold_everywhere(VertexStar& star) {
                                             [&star](ClassId c) { return c == 0 || star.is_manifold(c); });
 }
 
+/// True when tets of two classes or more meet at v; only there a surface can be.
+bool is_mixed(const VertexTets& around, VertexId v, const std::vector<ClassId>& class_of_tet) {
+  for (std::uint32_t i = around.first[v] + 1; i < around.first[v + 1]; ++i) {
+    if (class_of_tet[around.tets[i]] != class_of_tet[around.tets[i - 1]]) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Those of `candidates` (ascending) at which a surface is no manifold.
 std::vector<VertexId> find_non_manifold(const VertexTets& around, const CandidateMesh& mesh,
-                                        const std::vector<ClassId>& class_of_tet) {
-  const std::size_t count = around.first.size() - 1;
-  std::vector<std::uint8_t> bad(count, 0);
+                                        const std::vector<ClassId>& class_of_tet,
+                                        const std::vector<VertexId>& candidates) {
+  std::vector<std::uint8_t> bad(candidates.size(), 0);
 #pragma omp parallel
   {
     VertexStar star(around, mesh.tets.nodes, mesh.neighbours);
 #pragma omp for schedule(dynamic, 1024)
-    for (std::size_t v = 0; v < count; ++v) {
-      star.load(static_cast<VertexId>(v), class_of_tet, 0);
-      bad[v] = is_manifold_everywhere(star) ? 0 : 1;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (is_mixed(around, candidates[i], class_of_tet)) {
+        star.load(candidates[i], class_of_tet, 0);
+        bad[i] = is_manifold_everywhere(star) ? 0 : 1;
+      }
     }
   }
   std::vector<VertexId> vertices;
-  for (std::size_t v = 0; v < count; ++v) {
-    if (bad[v] != 0) {
-      vertices.push_back(static_cast<VertexId>(v));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (bad[i] != 0) {
+      vertices.push_back(candidates[i]);
     }
   }
   return vertices;
+}
+
+std::vector<VertexId> find_non_manifold(const VertexTets& around, const CandidateMesh& mesh,
+                                        const std::vector<ClassId>& class_of_tet) {
+  std::vector<VertexId> all(around.first.size() - 1);
+  std::iota(all.begin(), all.end(), VertexId{0});
+  return find_non_manifold(around, mesh, class_of_tet, all);
 }
 
 class Repair {
@@ -88,6 +109,13 @@ class Repair {
   TopologyReport run() {
     std::vector<VertexId> bad = find_non_manifold(around_, mesh_, class_of_tet_);
     report_.non_manifold_vertices = bad.size();
+    for (int pass = 0; pass < options_.image_passes && !bad.empty(); ++pass) {
+      touched_.clear();
+      for (const VertexId v : bad) {
+        force_star(v);
+      }
+      bad = find_non_manifold(around_, mesh_, class_of_tet_, nodes_of_touched());
+    }
     // Removing a component can touch a neighbour's surface; then the repair runs again. Components only
     // become fewer by removal, and what the bound would leave is counted below, so nothing is hidden.
     for (int pass = 0; pass < kMostPasses; ++pass) {
@@ -107,6 +135,16 @@ class Repair {
  private:
   static constexpr int kMostPasses = 10;
 
+  /// The star of v becomes what the voxel at v is.
+  void force_star(VertexId v) {
+    const MaterialId material = image_.at_local(points_[v]);
+    for (std::uint32_t i = around_.first[v]; i < around_.first[v + 1]; ++i) {
+      if (mesh_.materials[around_.tets[i]] != material) {
+        relabel(around_.tets[i], material);
+      }
+    }
+  }
+
   void repair_vertices(std::vector<VertexId> queue) {
     while (!queue.empty()) {
       touched_.clear();
@@ -114,16 +152,18 @@ class Repair {
         repair_vertex(v);
       }
       keep_one_face_rule();
-      for (const TetId t : touched_) {
-        for (const VertexId v : mesh_.tets.nodes[t]) {
-          next_.push_back(v);
-        }
-      }
-      std::sort(next_.begin(), next_.end());
-      next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
-      queue.swap(next_);
-      next_.clear();
+      queue = nodes_of_touched();
     }
+  }
+
+  [[nodiscard]] std::vector<VertexId> nodes_of_touched() const {
+    std::vector<VertexId> nodes;
+    for (const TetId t : touched_) {
+      nodes.insert(nodes.end(), mesh_.tets.nodes[t].begin(), mesh_.tets.nodes[t].end());
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
   }
 
   void repair_vertex(VertexId v) {
@@ -225,6 +265,9 @@ class Repair {
 
   /// Labelled tets near a change with two or more faces towards background become background.
   void keep_one_face_rule() {
+    if (!options_.one_face_rule) {
+      return;
+    }
     for (std::size_t next = 0; next < touched_.size(); ++next) {
       const TetId changed = touched_[next];
       check_faces(changed);
@@ -383,7 +426,6 @@ class Repair {
   std::vector<ClassId> class_of_tet_;
   VertexStar star_;
   std::vector<TetId> touched_;
-  std::vector<VertexId> next_;
   TopologyReport report_;
 };
 

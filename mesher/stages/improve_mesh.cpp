@@ -73,6 +73,7 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       relax_vertices(patch, relax);
       relax_vertices(patch, relax);
       remove_edges(patch, good);
+      flatten_interfaces(patch, threshold);
       relax_vertices(patch, relax);
     });
   }
@@ -80,11 +81,14 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
     in_patches("decimate", [&](Patch& patch) {
       collapse_edges(patch, {threshold, 2.5, 0, false});
       remove_edges(patch, good);
+      flatten_interfaces(patch, threshold);
       relax_vertices(patch, relax);
       relax_vertices(patch, relax);
+      flatten_interfaces(patch, threshold);
       collapse_edges(patch, {threshold, 2.5, 0, false});
       relax_vertices(patch, relax);
       remove_edges(patch, good);
+      flatten_interfaces(patch, threshold);
     });
   }
   for (int i = 0; i < options.repair_rounds; ++i) {

@@ -13,7 +13,14 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
   if (name == "quality") {
     options.clean.region_tolerance = 0;
     options.refine.max_distance_mm = frame.voxel_diagonal_mm();
+    options.refine.fidelity = 0.01;
+    options.refine.one_face_rule = false;
+    options.refine.topology_rounds = 0;
+    options.refine.repair_rounds = 4;
+    options.refine.repair_image_passes = 4;
     options.topology.enabled = true;
+    options.topology.one_face_rule = false;
+    options.topology.image_passes = 4;
     options.deform.iterations = 0;
     options.improve.enabled = true;
     options.deform.displacement.target_position = TargetPosition::voxel_faces;

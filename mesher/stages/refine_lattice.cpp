@@ -72,7 +72,9 @@ class Refiner {
   void select() {
     CandidateMesh& mesh = result_.mesh;
     mesh.neighbours = tet_neighbours(mesh.tets.nodes, points_.size());
-    select_candidate(mesh.neighbours, rank_, mesh.materials);
+    if (options_.one_face_rule) {
+      select_candidate(mesh.neighbours, rank_, mesh.materials);
+    }
   }
 
   void find_uncovered_voxels() {
@@ -159,7 +161,21 @@ class Refiner {
       ++topology_rounds_;
       mark_non_manifold();
     }
+    if (count_splittable() == 0 && coverage_ && options_.topology_checks &&
+        repairs_ < options_.repair_rounds) {
+      ++repairs_;
+      mark_what_repair_loses();
+    }
     return count_splittable();
+  }
+
+  /// What is to be kept is the mesh after the repair of its topology, so that is judged as well: where the
+  /// repair takes a boundary voxel's interface away, a finer lattice keeps it.
+  void mark_what_repair_loses() {
+    check_topology(result_.mesh, points_, image_,
+                   {true, options_.one_face_rule, options_.repair_image_passes, 0.0});
+    find_uncovered_voxels();
+    measure_fidelity();
   }
 
   /// The paper: when the fidelity is settled, the tets around non-manifold vertices and edges are split in
@@ -268,6 +284,7 @@ class Refiner {
   std::vector<MaterialId> centroid_material_;
   std::vector<std::uint8_t> marked_;
   int topology_rounds_ = 0;
+  int repairs_ = 0;
   RefineResult result_;
 };
 

@@ -20,8 +20,11 @@ struct RefineOptions {
   double max_distance_mm = 0;    ///< > 0: refine also where a boundary voxel has no interface vertex so near
   double finest_spacing_mm = 0;  ///< the fidelity criterion splits no tet below this lattice spacing, mm;
                                  ///< 0: the smallest voxel spacing (the distance criterion: a quarter of it)
+  bool one_face_rule = true;     ///< the paper's: a candidate tet has at most one face towards background
   bool topology_checks = false;  ///< refine around non-manifold places once the fidelity is settled
   int topology_rounds = 3;       ///< how often, at most
+  int repair_rounds = 0;         ///< how often, at most, the distance is judged again after the repair of the topology
+  int repair_image_passes = 0;   ///< TopologyOptions::image_passes of that repair
   int max_rounds = 40;           ///< a bound that is never reached unless something is wrong
 };
 
