@@ -122,10 +122,14 @@ BoundarySample ImageBoundary::far_sample(const Vec3& x, MaterialId a, MaterialId
   double nearest_b = nearest_a;
   Vec3 to_a;
   Vec3 to_b;
-  constexpr int kReach = 3;
-  for (int k = at[2] - kReach; k <= at[2] + kReach; ++k) {
-    for (int j = at[1] - kReach; j <= at[1] + kReach; ++j) {
-      for (int i = at[0] - kReach; i <= at[0] + kReach; ++i) {
+  Index3 reach;
+  for (int axis = 0; axis < 3; ++axis) {
+    reach[static_cast<std::size_t>(axis)] =
+        std::min(12, static_cast<int>(2.5 * frame.voxel_diagonal_mm() / frame.spacing_mm[axis]) + 1);
+  }
+  for (int k = at[2] - reach[2]; k <= at[2] + reach[2]; ++k) {
+    for (int j = at[1] - reach[1]; j <= at[1] + reach[1]; ++j) {
+      for (int i = at[0] - reach[0]; i <= at[0] + reach[0]; ++i) {
         const MaterialId m = image_.at_or_background(i, j, k);
         if (m != a && m != b) {
           continue;

@@ -63,6 +63,17 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   const auto in_patches = [&](const std::string& name, const auto& improve) {
     on_round(round);
     timed(name, [&] { improve_in_patches(mesh, hosts, rules, round++, improve); });
+    {
+      const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
+      std::vector<double> dev(mesh.points.size(), -1);
+      for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
+        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
+        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; dev[v] = std::max(dev[v], boundary.sample(mesh.points[v], mesh.materials[t], o).deviation_mm); }
+      }
+      std::size_t c[5] = {0,0,0,0,0};
+      for (double d : dev) { if (d >= 0) ++c[0]; d /= diagonal; if (d > .16) ++c[1]; if (d > .5) ++c[2]; if (d > 1) ++c[3]; if (d > 1e9) ++c[4]; }
+      std::fprintf(stderr, "   surface vertices %zu, >.16: %zu >.5: %zu >1: %zu inf: %zu\n", c[0], c[1], c[2], c[3], c[4]);
+    }
     std::fprintf(stderr, "%s %zu tets %.2f deg %.2f s\n", name.c_str(), mesh.tets.size(),
                  degrees(worst_sine_squared(mesh)), report.part_seconds.back().second);
   };
