@@ -98,10 +98,21 @@ class LabelVoxels {
     return words_ != nullptr ? std::forward<F>(f)(words_) : std::forward<F>(f)(bytes_);
   }
 
+  /// To be called when no voxel is looked at for a while: a large mapped file leaves the memory until one is.
+  void page_out() const {
+    if (file_ && count_ >= kLarge) {
+      file_->page_out();
+    }
+  }
+
+  /// The first voxel while each is one byte, null when they are wide.
+  [[nodiscard]] std::uint8_t* narrow() { return bytes_; }
+
   bool operator==(const LabelVoxels& other) const;
 
  private:
   static constexpr MaterialId kMostNarrow = 255;
+  static constexpr std::size_t kLarge = std::size_t{1} << 30U;
 
   void point_to_own();
   void widen();

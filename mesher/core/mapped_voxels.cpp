@@ -51,6 +51,12 @@ MappedVoxels::~MappedVoxels() {
   }
 }
 
+void MappedVoxels::page_out() const {
+#ifdef MADV_PAGEOUT
+  static_cast<void>(::madvise(mapping_, length_, MADV_PAGEOUT));  // advice: that it is not taken is no fault
+#endif
+}
+
 std::optional<MappedVoxels> map_raw_nrrd(const fs::path& path, std::size_t bytes,
                                          std::size_t component_bytes) {
   std::error_code error;

@@ -17,6 +17,9 @@ class MappedVoxels {
 
   /// The first voxel's first byte.
   [[nodiscard]] void* data() const { return static_cast<char*>(mapping_) + offset_; }
+  /// Advises the system to take the pages that were not written from memory now; they come back when they are
+  /// looked at.
+  void page_out() const;
 
  private:
   friend std::optional<MappedVoxels> map_raw_nrrd(const std::filesystem::path&, std::size_t, std::size_t);
