@@ -26,7 +26,9 @@ struct Overlap {
   }
 };
 
-/// One entry per material of the image; background's counts stay 0.
-std::vector<Overlap> count_overlaps(const std::vector<MaterialId>& rasterised, const LabelImage& image);
+/// One entry per material of the image; background's counts stay 0. What rasterise() says, compared slab by
+/// slab of about `slab_voxels` voxels, so that memory does not grow with the image.
+std::vector<Overlap> count_overlaps(const MeshView& view, const LabelImage& image,
+                                    std::size_t slab_voxels = std::size_t{1} << 26U);
 
 }  // namespace cbc3d::metrics

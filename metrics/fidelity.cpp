@@ -53,9 +53,10 @@ class FidelityMeasurer {
     result.labels = compare_labels(view_, image_, voxels);
     volumes_ = label_volumes_mm3(view_);
     progress_.step("overlap", 0.3);
-    overlaps_ = count_overlaps(rasterise(view_, image_), image_);
+    overlaps_ = count_overlaps(view_, image_);
     progress_.step("image boundaries", 0.4);
     boundaries_ = image_boundaries(image_);
+    image_.voxels.page_out();
     const std::size_t labels = image_.material_count();
     for (std::size_t m = 1; m < labels; ++m) {
       progress_.step("distances", 0.45 + 0.5 * static_cast<double>(m - 1) / static_cast<double>(labels));
@@ -79,7 +80,8 @@ class FidelityMeasurer {
     }
     parts.faces = boundaries_[m].faces;
     if (options_.smooth) {
-      parts.smooth = smooth_surface(image_, m);
+      parts.smooth = smooth_surface(image_, m, box_of(boundaries_[m]));
+      image_.voxels.page_out();
     }
     return parts;
   }
@@ -96,9 +98,11 @@ class FidelityMeasurer {
     SurfaceFidelity result;
     const auto mesh = searchable_facets(surface_, parts.facets, view_.local_points());
     result.mesh_area_mm2 = mesh.sampled.area_mm2;
-    const auto voxel = searchable_voxel_faces(parts.faces, image_.frame);
-    result.voxel_area_mm2 = voxel.sampled.area_mm2;
-    result.voxel = surface_distance(voxel, mesh, options_.certify);
+    {  // one of the two at a time in memory
+      const auto voxel = searchable_voxel_faces(parts.faces, image_.frame);
+      result.voxel_area_mm2 = voxel.sampled.area_mm2;
+      result.voxel = surface_distance(voxel, mesh, options_.certify);
+    }
     if (options_.smooth) {
       const auto smooth = searchable_triangles(parts.smooth);
       result.smooth_area_mm2 = smooth.sampled.area_mm2;

@@ -32,6 +32,14 @@ struct MaterialBoundary {
   std::vector<VoxelFace> faces;     ///< every face towards another material or the outside
 };
 
+/// The smallest box that holds some voxels; both ends inclusive, empty when low > high.
+struct VoxelBox {
+  Index3 low{0, 0, 0}, high{-1, -1, -1};
+};
+
+/// The box of all voxels of a material: its boundary voxels reach as far as any.
+VoxelBox box_of(const MaterialBoundary& boundary);
+
 /// One entry per material, that of background left empty. The outside of the image counts as background.
 std::vector<MaterialBoundary> image_boundaries(const LabelImage& image);
 

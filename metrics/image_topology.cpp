@@ -1,8 +1,11 @@
 #include "metrics/image_topology.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "mesher/core/error.hpp"
+#include "mesher/core/voxel_rows.hpp"
 #include "metrics/disjoint_sets.hpp"
 
 namespace cbc3d::metrics {
@@ -80,21 +83,34 @@ void add_corner(const std::array<MaterialId, 8>& voxels, const CornerTables& tab
   }
 }
 
+// The first index from i on, in steps of eight bytes, from where on not all voxels of four rows are `value`.
+template <typename Voxel>
+int end_of_uniform(const std::array<const Voxel*, 4>& rows, int i, int size, Voxel value) {
+  const std::uint64_t uniform = value * (~std::uint64_t{0} / static_cast<Voxel>(~Voxel{0}));
+  while (i + kVoxelsInWord<Voxel> <= size &&
+         ((voxel_word(rows[0] + i) ^ uniform) | (voxel_word(rows[1] + i) ^ uniform) |
+          (voxel_word(rows[2] + i) ^ uniform) | (voxel_word(rows[3] + i) ^ uniform)) == 0) {
+    i += kVoxelsInWord<Voxel>;
+  }
+  return i;
+}
+
 // Corners between the four rows (j, k), (j + 1, k), (j, k + 1), (j + 1, k + 1), padded with background.
-void add_row_of_corners(const LabelImage& image, int j, int k, const std::vector<MaterialId>& none,
+template <typename Voxel>
+void add_row_of_corners(const ImageFrame& frame, const Voxel* voxels, int j, int k, const Voxel* none,
                         const CornerTables& tables, AllCornerSums& sums) {
-  std::array<const MaterialId*, 4> rows;
+  std::array<const Voxel*, 4> rows;
   for (int n = 0; n < 4; ++n) {
     const int row_j = j + n % 2, row_k = k + n / 2;
-    rows[static_cast<std::size_t>(n)] = image.frame.contains(0, row_j, row_k)
-                                            ? image.voxels.data() + image.frame.offset(0, row_j, row_k)
-                                            : none.data();
+    rows[static_cast<std::size_t>(n)] =
+        frame.contains(0, row_j, row_k) ? voxels + frame.offset(0, row_j, row_k) : none;
   }
   std::array<MaterialId, 4> before{};
   bool before_uniform = true;
-  for (int i = 0; i <= image.frame.size[0]; ++i) {
+  for (int i = 0; i <= frame.size[0]; ++i) {
+    i = before_uniform ? end_of_uniform(rows, i, frame.size[0], static_cast<Voxel>(before[0])) : i;
     std::array<MaterialId, 4> here{};
-    if (i < image.frame.size[0]) {
+    if (i < frame.size[0]) {
       here = {rows[0][i], rows[1][i], rows[2][i], rows[3][i]};
     }
     const bool uniform = here[0] == here[1] && here[0] == here[2] && here[0] == here[3];
@@ -109,24 +125,26 @@ void add_row_of_corners(const LabelImage& image, int j, int k, const std::vector
 
 AllCornerSums corner_sums(const LabelImage& image) {
   const CornerTables tables = corner_tables();
-  const std::vector<MaterialId> none(static_cast<std::size_t>(image.frame.size[0]), kBackground);
   AllCornerSums total(image.material_count() + 1);
+  image.voxels.visit([&]<typename Voxel>(const Voxel* voxels) {
+    const std::vector<Voxel> none(static_cast<std::size_t>(image.frame.size[0]), kBackground);
 #pragma omp parallel
-  {
-    AllCornerSums mine(total.size());
+    {
+      AllCornerSums mine(total.size());
 #pragma omp for nowait schedule(dynamic)
-    for (int k = -1; k < image.frame.size[2]; ++k) {
-      for (int j = -1; j < image.frame.size[1]; ++j) {
-        add_row_of_corners(image, j, k, none, tables, mine);
+      for (int k = -1; k < image.frame.size[2]; ++k) {
+        for (int j = -1; j < image.frame.size[1]; ++j) {
+          add_row_of_corners(image.frame, voxels, j, k, none.data(), tables, mine);
+        }
+      }
+#pragma omp critical(cbc3d_corner_sums)
+      for (std::size_t m = 0; m < total.size(); ++m) {
+        total[m].closed += mine[m].closed;
+        total[m].open += mine[m].open;
+        total[m].ambiguous += mine[m].ambiguous;
       }
     }
-#pragma omp critical(cbc3d_corner_sums)
-    for (std::size_t m = 0; m < total.size(); ++m) {
-      total[m].closed += mine[m].closed;
-      total[m].open += mine[m].open;
-      total[m].ambiguous += mine[m].ambiguous;
-    }
-  }
+  });
   return total;
 }
 
@@ -162,11 +180,15 @@ class Regions {
     first_.push_back(0);
     for (int k = 0; k < size[2]; ++k) {
       for (int j = 0; j < size[1]; ++j) {
-        const MaterialId* voxels = image_.voxels.data() + image_.frame.offset(0, j, k);
-        for (int i = 0; i < size[0]; ++i) {
-          if (i == 0 || voxels[i] != voxels[i - 1]) {
-            runs_.push_back({i, voxels[i]});
+        image_.voxels.visit([&](const auto* voxels) {
+          const auto* row = voxels + image_.frame.offset(0, j, k);
+          for (int i = 0; i < size[0]; i = end_of_run(row, i, size[0])) {
+            runs_.push_back({i, row[i]});
           }
+        });
+        if (runs_.size() >= std::numeric_limits<std::uint32_t>::max()) {
+          throw JobError(
+              "the image has more runs of equal voxels than can be numbered; remove its noise first");
         }
         first_.push_back(static_cast<std::uint32_t>(runs_.size()));
       }

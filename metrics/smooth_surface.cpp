@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+
+#include "mesher/core/voxel_rows.hpp"
 
 namespace cbc3d::metrics {
 namespace {
@@ -31,41 +34,34 @@ std::array<double, 2 * kReach + 1> gaussian() {
   return weight;
 }
 
-struct VoxelBox {
-  Index3 low, high;  // inclusive; empty when low > high
-};
-
 VoxelBox bounds_of(const LabelImage& image, MaterialId material) {
-  VoxelBox box{image.frame.size, {-1, -1, -1}};
+  VoxelBox box{image.frame.size, {-1, -1, -1}};  // empty
   const Index3& size = image.frame.size;
+  image.voxels.visit([&](const auto* voxels) {
 #pragma omp parallel
-  {
-    VoxelBox mine = box;
+    {
+      VoxelBox mine = box;
 #pragma omp for nowait
-    for (int k = 0; k < size[2]; ++k) {
-      for (int j = 0; j < size[1]; ++j) {
-        const MaterialId* row = image.voxels.data() + image.frame.offset(0, j, k);
-        const MaterialId* end = row + size[0];
-        const MaterialId* first = std::find(row, end, material);
-        if (first == end) {
-          continue;
+      for (int k = 0; k < size[2]; ++k) {
+        for (int j = 0; j < size[1]; ++j) {
+          const auto* row = voxels + image.frame.offset(0, j, k);
+          for (int i = 0, end = 0; i < size[0]; i = end) {
+            end = end_of_run(row, i, size[0]);
+            if (row[i] == material) {
+              mine.low = {std::min(mine.low[0], i), std::min(mine.low[1], j), std::min(mine.low[2], k)};
+              mine.high = {std::max(mine.high[0], end - 1), std::max(mine.high[1], j),
+                           std::max(mine.high[2], k)};
+            }
+          }
         }
-        const MaterialId* last = end - 1;
-        while (*last != material) {
-          --last;
-        }
-        mine.low = {std::min(mine.low[0], static_cast<int>(first - row)), std::min(mine.low[1], j),
-                    std::min(mine.low[2], k)};
-        mine.high = {std::max(mine.high[0], static_cast<int>(last - row)), std::max(mine.high[1], j),
-                     std::max(mine.high[2], k)};
+      }
+#pragma omp critical(cbc3d_smooth_bounds)
+      for (std::size_t a = 0; a < 3; ++a) {
+        box.low[a] = std::min(box.low[a], mine.low[a]);
+        box.high[a] = std::max(box.high[a], mine.high[a]);
       }
     }
-#pragma omp critical(cbc3d_smooth_bounds)
-    for (std::size_t a = 0; a < 3; ++a) {
-      box.low[a] = std::min(box.low[a], mine.low[a]);
-      box.high[a] = std::max(box.high[a], mine.high[a]);
-    }
-  }
+  });
   return box;
 }
 
@@ -216,13 +212,17 @@ class Marcher {
 }  // namespace
 
 std::vector<SmoothTriangle> smooth_surface(const LabelImage& image, MaterialId material) {
-  const VoxelBox box = bounds_of(image, material);
+  return smooth_surface(image, material, bounds_of(image, material));
+}
+
+std::vector<SmoothTriangle> smooth_surface(const LabelImage& image, MaterialId material,
+                                           const VoxelBox& box) {
   if (material == kBackground || box.low[0] > box.high[0]) {
     return {};
   }
   const int first = box.low[2] - 1;
   std::vector<std::vector<SmoothTriangle>> layers(static_cast<std::size_t>(box.high[2] - first + 1));
-#pragma omp parallel
+#pragma omp parallel if (layers.size() > 8)
   {
     Marcher marcher(image, material, box);
 #pragma omp for schedule(dynamic, 8)
@@ -231,6 +231,8 @@ std::vector<SmoothTriangle> smooth_surface(const LabelImage& image, MaterialId m
     }
   }
   std::vector<SmoothTriangle> triangles;
+  triangles.reserve(std::accumulate(layers.begin(), layers.end(), std::size_t{0},
+                                    [](std::size_t sum, const auto& layer) { return sum + layer.size(); }));
   for (auto& layer : layers) {
     triangles.insert(triangles.end(), layer.begin(), layer.end());
     layer = {};

@@ -7,6 +7,7 @@
 
 #include "mesher/core/label_image.hpp"
 #include "metrics/box_tree.hpp"
+#include "metrics/image_boundary.hpp"
 
 namespace cbc3d::metrics {
 
@@ -26,5 +27,8 @@ struct SmoothTriangle {
 /// voxel faces along some axis. Outside the image is background. Empty for background and for a material
 /// without voxels. Same triangles in the same order at any thread count.
 std::vector<SmoothTriangle> smooth_surface(const LabelImage& image, MaterialId material);
+
+/// The same where the box of the material's voxels is known, so that no more than that is looked at.
+std::vector<SmoothTriangle> smooth_surface(const LabelImage& image, MaterialId material, const VoxelBox& box);
 
 }  // namespace cbc3d::metrics

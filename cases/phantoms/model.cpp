@@ -9,16 +9,17 @@ namespace cbc3d::cases {
 
 Layer tube_layer(MaterialId material, Tubes tubes) {
   const auto shared = std::make_shared<const Tubes>(std::move(tubes));
-  return {material,
-          [shared, material](const ImageFrame& frame, int k, MaterialId* slice) {
-            shared->paint(frame, k, material, slice);
-          },
-          [shared](const Vec3& p) { return shared->distance_mm(p); }};
+  return {
+      material,
+      [shared, material = static_cast<PaintedVoxel>(material)](
+          const ImageFrame& frame, int k, PaintedVoxel* slice) { shared->paint(frame, k, material, slice); },
+      [shared](const Vec3& p) { return shared->distance_mm(p); }};
 }
 
 Layer predicate_layer(MaterialId material, std::function<bool(const Vec3& local_mm)> holds) {
   return {material,
-          [holds = std::move(holds), material](const ImageFrame& frame, int k, MaterialId* slice) {
+          [holds = std::move(holds), material = static_cast<PaintedVoxel>(material)](
+              const ImageFrame& frame, int k, PaintedVoxel* slice) {
             for (int j = 0; j < frame.size[1]; ++j) {
               for (int i = 0; i < frame.size[0]; ++i, ++slice) {
                 if (holds(frame.local_centre(i, j, k))) {
@@ -30,13 +31,14 @@ Layer predicate_layer(MaterialId material, std::function<bool(const Vec3& local_
           nullptr};
 }
 
-void paint_slab(const PhantomModel& model, const ImageFrame& frame, int first, int last, MaterialId* voxels) {
+void paint_slab(const PhantomModel& model, const ImageFrame& frame, int first, int last,
+                PaintedVoxel* voxels) {
   const std::size_t slice_size =
       static_cast<std::size_t>(frame.size[0]) * static_cast<std::size_t>(frame.size[1]);
 #pragma omp parallel for schedule(dynamic)
   for (int k = first; k < last; ++k) {
-    MaterialId* slice = voxels + static_cast<std::size_t>(k - first) * slice_size;
-    std::fill(slice, slice + slice_size, kBackground);
+    PaintedVoxel* slice = voxels + static_cast<std::size_t>(k - first) * slice_size;
+    std::fill(slice, slice + slice_size, PaintedVoxel{kBackground});
     for (const Layer& layer : model.layers) {
       layer.paint(frame, k, slice);
     }

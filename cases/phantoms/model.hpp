@@ -13,7 +13,7 @@ namespace cbc3d::cases {
 struct Layer {
   MaterialId material;
   /// Paints slice k of a frame; safe to call from several threads.
-  std::function<void(const ImageFrame&, int k, MaterialId* slice)> paint;
+  std::function<void(const ImageFrame&, int k, PaintedVoxel* slice)> paint;
   /// Signed distance of the layer's solid at a local position, mm, negative inside; empty: not known.
   std::function<double(const Vec3& local_mm)> distance_mm;
 };
@@ -30,7 +30,8 @@ Layer tube_layer(MaterialId material, Tubes tubes);
 Layer predicate_layer(MaterialId material, std::function<bool(const Vec3& local_mm)> holds);
 
 /// Paints the slices first..last-1 into `voxels`, in parallel; overwrites what was there.
-void paint_slab(const PhantomModel& model, const ImageFrame& frame, int first, int last, MaterialId* voxels);
+void paint_slab(const PhantomModel& model, const ImageFrame& frame, int first, int last,
+                PaintedVoxel* voxels);
 
 /// Signed distance of a label's region at a local position, mm, negative inside: the label's solids less
 /// those painted over them. The sign is that of the voxels at every voxel centre, and where two solids meet

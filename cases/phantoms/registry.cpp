@@ -105,7 +105,7 @@ LabelImage make_phantom(const Phantom& phantom) {
   }
   const PhantomModel model = kind.model(phantom.size, phantom.spacing_mm, phantom.seed);
   LabelImage image = blank_image(phantom.size, phantom.spacing_mm, model.label_count);
-  paint_slab(model, image.frame, 0, phantom.size[2], image.voxels.data());
+  paint_slab(model, image.frame, 0, phantom.size[2], image.voxels.narrow());
   return image;
 }
 

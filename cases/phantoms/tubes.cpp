@@ -90,7 +90,7 @@ double Tubes::distance_mm(const Vec3& local_mm) const {
   return least;
 }
 
-void Tubes::paint(const ImageFrame& frame, int k, MaterialId material, MaterialId* slice) const {
+void Tubes::paint(const ImageFrame& frame, int k, PaintedVoxel material, PaintedVoxel* slice) const {
   const Vec3& spacing = frame.spacing_mm;
   const double z = k * spacing.z;
   for (const RoundCone& cone : cones_) {
@@ -100,7 +100,7 @@ void Tubes::paint(const ImageFrame& frame, int k, MaterialId material, MaterialI
     const Range columns = voxels_between(cone.low().x, cone.high().x, spacing.x, frame.size[0]);
     const Range rows = voxels_between(cone.low().y, cone.high().y, spacing.y, frame.size[1]);
     for (int j = rows.low; j <= rows.high; ++j) {
-      MaterialId* row = slice + static_cast<std::size_t>(j) * static_cast<std::size_t>(frame.size[0]);
+      PaintedVoxel* row = slice + static_cast<std::size_t>(j) * static_cast<std::size_t>(frame.size[0]);
       for (int i = columns.low; i <= columns.high; ++i) {
         if (row[i] != material && cone.distance_mm(frame.local_centre(i, j, k)) <= 0) {
           row[i] = material;

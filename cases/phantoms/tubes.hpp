@@ -1,11 +1,15 @@
 // Tubes of varying radius: the convex hulls of two balls, strung along curves.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
 
 namespace cbc3d::cases {
+
+/// A voxel while a phantom is painted: its material, which is its label too.
+using PaintedVoxel = std::uint8_t;
 
 /// A position on a curve and the radius there, mm.
 struct Knot {
@@ -45,7 +49,7 @@ class Tubes {
   [[nodiscard]] double distance_mm(const Vec3& local_mm) const;
   /// Gives the voxels of slice k whose centres the tubes hold this material. `slice`: its size[0] * size[1]
   /// voxels.
-  void paint(const ImageFrame& frame, int k, MaterialId material, MaterialId* slice) const;
+  void paint(const ImageFrame& frame, int k, PaintedVoxel material, PaintedVoxel* slice) const;
   [[nodiscard]] const std::vector<RoundCone>& cones() const { return cones_; }
 
  private:

@@ -51,20 +51,16 @@ int slices_per_slab(const ImageFrame& frame) {
 std::string stream_model(const PhantomModel& model, const ImageFrame& frame, std::ostream& out) {
   const auto slice = static_cast<std::size_t>(frame.size[0]) * static_cast<std::size_t>(frame.size[1]);
   const int step = std::min(slices_per_slab(frame), frame.size[2]);
-  std::vector<MaterialId> slab(slice * static_cast<std::size_t>(step));
-  std::vector<unsigned char> bytes(slab.size());
+  std::vector<PaintedVoxel> slab(slice * static_cast<std::size_t>(step));
   Sha256 digest;
   out << nrrd_header(frame);
   for (int first = 0; first < frame.size[2] && out; first += step) {
     const int last = std::min(first + step, frame.size[2]);
     paint_slab(model, frame, first, last, slab.data());
     const std::size_t count = slice * static_cast<std::size_t>(last - first);
-#pragma omp parallel for
-    for (std::size_t v = 0; v < count; ++v) {
-      bytes[v] = static_cast<unsigned char>(slab[v]);
-    }
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(count));
-    digest.add(bytes.data(), count);
+    // Material m has label m: the voxels are the bytes of the file.
+    out.write(reinterpret_cast<const char*>(slab.data()), static_cast<std::streamsize>(count));
+    digest.add(slab.data(), count);
   }
   return digest.finish();
 }

@@ -6,10 +6,13 @@
 #include <itkNrrdImageIOFactory.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <unordered_map>
 
@@ -17,6 +20,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/inrimage.hpp"
 #include "mesher/core/mapped_voxels.hpp"
+#include "mesher/core/voxel_rows.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -148,28 +152,83 @@ class Classifier {
   Classifier(const T* values, std::size_t count, const fs::path& path)
       : values_(values), count_(count), path_(path) {}
 
-  void run(LabelImage& image) {
+  /// Finds the labels.
+  void find_labels(LabelImage& image) {
     collect();
     assign_labels(image);
-    image.voxels.resize(count_);
+    labels_ = image.labels.size();
+  }
+
+  /// True when every value is one byte and the number of its material: the bytes can stay as they are.
+  [[nodiscard]] bool values_are_materials() const {
+    return sizeof(T) == 1 && std::all_of(material_.begin(), material_.end(), [](const auto& known) {
+             return known.first == static_cast<T>(known.second) && known.first >= T{};
+           });
+  }
+
+  [[nodiscard]] LabelVoxels voxels() const {
+    LabelVoxels voxels(count_);
+    voxels.hold(labels_);
+    voxels.visit([this](auto* to) { look_up(to); });
+    return voxels;
+  }
+
+ private:
+  template <typename Voxel>
+  void look_up(Voxel* to) const {
 #pragma omp parallel
     {
       T last = T{};
-      MaterialId material = material_.at(T{});
+      auto material = static_cast<Voxel>(material_.at(T{}));
 #pragma omp for
       for (std::size_t v = 0; v < count_; ++v) {
         if (values_[v] != last) {
           last = values_[v];
-          material = material_.at(last);
+          material = static_cast<Voxel>(material_.at(last));
         }
-        image.voxels[v] = material;
+        to[v] = material;
       }
     }
   }
 
- private:
   void collect() {
     material_[T{}] = kBackground;
+    if constexpr (sizeof(T) == 1) {
+      collect_bytes();
+    } else {
+      collect_values();
+    }
+    if (material_.size() > kMostLabels) {
+      fail(path_, "it has more than 65536 different values; give a label image, not a grey one");
+    }
+  }
+
+  /// The same with a table of all values, run by run.
+  void collect_bytes() {
+    constexpr std::size_t kPiece = std::size_t{1} << 20U;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values_);
+    std::array<bool, 256> present{};
+#pragma omp parallel
+    {
+      std::array<bool, 256> mine{};
+#pragma omp for nowait
+      for (std::size_t begin = 0; begin < count_; begin += kPiece) {
+        const auto length = static_cast<int>(std::min(kPiece, count_ - begin));
+        for (int i = 0; i < length; i = end_of_run(bytes + begin, i, length)) {
+          mine[bytes[begin + static_cast<std::size_t>(i)]] = true;
+        }
+      }
+#pragma omp critical(cbc3d_classifier)
+      std::transform(mine.begin(), mine.end(), present.begin(), present.begin(), std::logical_or<>());
+    }
+    for (std::size_t byte = 0; byte < present.size(); ++byte) {
+      if (present[byte]) {
+        material_.emplace(static_cast<T>(byte), kBackground);
+      }
+    }
+  }
+
+  void collect_values() {
 #pragma omp parallel
     {
       std::unordered_map<T, MaterialId> mine;
@@ -185,9 +244,6 @@ class Classifier {
       }
 #pragma omp critical(cbc3d_classifier)
       material_.insert(mine.begin(), mine.end());
-    }
-    if (material_.size() > kMostLabels) {
-      fail(path_, "it has more than 65536 different values; give a label image, not a grey one");
     }
   }
 
@@ -227,39 +283,48 @@ class Classifier {
   std::size_t count_;
   const fs::path& path_;
   std::unordered_map<T, MaterialId> material_;
+  std::size_t labels_ = 1;
 };
 
+/// `file`: the mapping that `bytes` are in, if they are in one; it is taken over where it can stay as it is.
 template <typename T>
-void classify(const void* bytes, LabelImage& image, const fs::path& path) {
-  Classifier<T>(static_cast<const T*>(bytes), image.frame.voxel_count(), path).run(image);
+void classify(const void* bytes, std::optional<MappedVoxels>& file, LabelImage& image, const fs::path& path) {
+  Classifier<T> classifier(static_cast<const T*>(bytes), image.frame.voxel_count(), path);
+  classifier.find_labels(image);
+  if (file && classifier.values_are_materials()) {
+    image.voxels = LabelVoxels(std::move(*file), image.frame.voxel_count());
+  } else {
+    image.voxels = classifier.voxels();
+  }
 }
 
-void classify_component(Component component, const void* bytes, LabelImage& image, const fs::path& path) {
+void classify_component(Component component, const void* bytes, std::optional<MappedVoxels>& file,
+                        LabelImage& image, const fs::path& path) {
   switch (component) {
     case Component::UCHAR:
-      return classify<unsigned char>(bytes, image, path);
+      return classify<unsigned char>(bytes, file, image, path);
     case Component::CHAR:
-      return classify<signed char>(bytes, image, path);
+      return classify<signed char>(bytes, file, image, path);
     case Component::USHORT:
-      return classify<unsigned short>(bytes, image, path);
+      return classify<unsigned short>(bytes, file, image, path);
     case Component::SHORT:
-      return classify<short>(bytes, image, path);
+      return classify<short>(bytes, file, image, path);
     case Component::UINT:
-      return classify<unsigned int>(bytes, image, path);
+      return classify<unsigned int>(bytes, file, image, path);
     case Component::INT:
-      return classify<int>(bytes, image, path);
+      return classify<int>(bytes, file, image, path);
     case Component::ULONG:
-      return classify<unsigned long>(bytes, image, path);
+      return classify<unsigned long>(bytes, file, image, path);
     case Component::LONG:
-      return classify<long>(bytes, image, path);
+      return classify<long>(bytes, file, image, path);
     case Component::ULONGLONG:
-      return classify<unsigned long long>(bytes, image, path);
+      return classify<unsigned long long>(bytes, file, image, path);
     case Component::LONGLONG:
-      return classify<long long>(bytes, image, path);
+      return classify<long long>(bytes, file, image, path);
     case Component::FLOAT:
-      return classify<float>(bytes, image, path);
+      return classify<float>(bytes, file, image, path);
     case Component::DOUBLE:
-      return classify<double>(bytes, image, path);
+      return classify<double>(bytes, file, image, path);
     default:
       fail(path, "its pixel type is not known; convert it to an integer type");
   }
@@ -272,8 +337,9 @@ LabelImage read_with_itk(const fs::path& path) {
   LabelImage image;
   image.frame = frame_of(*io, path);
   orthonormalise(image.frame, path);
-  if (const auto mapped = map_raw_nrrd(path, io->GetImageSizeInBytes(), io->GetComponentSize())) {
-    classify_component(io->GetComponentType(), mapped->data(), image, path);
+  auto mapped = map_raw_nrrd(path, io->GetImageSizeInBytes(), io->GetComponentSize());
+  if (mapped) {
+    classify_component(io->GetComponentType(), mapped->data(), mapped, image, path);
     return image;
   }
   itk::ImageIORegion region(io->GetNumberOfDimensions());
@@ -288,7 +354,7 @@ LabelImage read_with_itk(const fs::path& path) {
   } catch (const itk::ExceptionObject& error) {
     fail(path, brief(error) + "; the file may be truncated, copy it again");
   }
-  classify_component(io->GetComponentType(), bytes.get(), image, path);
+  classify_component(io->GetComponentType(), bytes.get(), mapped, image, path);
   return image;
 }
 
@@ -296,7 +362,8 @@ LabelImage read_from_inrimage(const fs::path& path) {
   InrimageVolume volume = read_inrimage(path);
   LabelImage image;
   image.frame = volume.frame;
-  classify<double>(volume.values.data(), image, path);
+  std::optional<MappedVoxels> none;
+  classify<double>(volume.values.data(), none, image, path);
   return image;
 }
 
@@ -315,10 +382,12 @@ void register_formats() {
 template <typename T>
 std::vector<T> label_values(const LabelImage& image) {
   std::vector<T> values(image.voxels.size());
+  image.voxels.visit([&](const auto* voxels) {
 #pragma omp parallel for
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    values[v] = static_cast<T>(image.labels[image.voxels[v]]);
-  }
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      values[v] = static_cast<T>(image.labels[voxels[v]]);
+    }
+  });
   return values;
 }
 

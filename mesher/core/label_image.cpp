@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mesher/core/voxel_rows.hpp"
+
 namespace cbc3d {
 
 Index3 ImageFrame::index_of(std::size_t offset) const {
@@ -23,18 +25,27 @@ MaterialId LabelImage::at_local(const Vec3& local_mm) const {
 
 std::vector<std::size_t> LabelImage::voxels_per_material() const {
   std::vector<std::size_t> total(material_count(), 0);
+  const auto row = static_cast<std::size_t>(frame.size[0]);
+  const std::size_t rows = row > 0 ? voxels.size() / row : 0;
+  voxels.visit([&](const auto* all) {
 #pragma omp parallel
-  {
-    std::vector<std::size_t> mine(material_count(), 0);
+    {
+      std::vector<std::size_t> mine(material_count(), 0);
 #pragma omp for nowait
-    for (std::size_t v = 0; v < voxels.size(); ++v) {
-      ++mine[voxels[v]];
-    }
+      for (std::size_t r = 0; r < rows; ++r) {
+        const auto* begin = all + r * row;
+        for (int i = 0; i < frame.size[0];) {
+          const int end = end_of_run(begin, i, frame.size[0]);
+          mine[begin[i]] += static_cast<std::size_t>(end - i);
+          i = end;
+        }
+      }
 #pragma omp critical(cbc3d_voxels_per_material)
-    for (std::size_t m = 0; m < total.size(); ++m) {
-      total[m] += mine[m];
+      for (std::size_t m = 0; m < total.size(); ++m) {
+        total[m] += mine[m];
+      }
     }
-  }
+  });
   return total;
 }
 

@@ -9,17 +9,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesher/core/label_voxels.hpp"
 #include "mesher/core/vec3.hpp"
 
 namespace cbc3d {
 
 /// A label value as the image's file has it (any 32-bit integer; 0 is background).
 using Label = std::int32_t;
-
-/// Index into LabelImage::labels; material 0 is background. Small, so that a voxel costs two bytes.
-using MaterialId = std::uint16_t;
-
-inline constexpr MaterialId kBackground = 0;
 
 /// Where the voxels of an image lie in physical space.
 struct ImageFrame {
@@ -60,8 +56,8 @@ struct ImageFrame {
 struct LabelImage {
   ImageFrame frame;
   std::vector<Label> labels{
-      0};  ///< labels[0] = 0 (background); the rest ascending and distinct when read from a file
-  std::vector<MaterialId> voxels;  ///< frame.voxel_count() entries, i fastest
+      0};              ///< labels[0] = 0 (background); the rest ascending and distinct when read from a file
+  LabelVoxels voxels;  ///< frame.voxel_count() entries, i fastest
 
   [[nodiscard]] MaterialId at(int i, int j, int k) const { return voxels[frame.offset(i, j, k)]; }
   /// Material at (i,j,k); background outside the image.

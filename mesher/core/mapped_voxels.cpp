@@ -38,10 +38,23 @@ std::size_t raw_offset(const fs::path& path, std::size_t component_bytes) {
 MappedVoxels::MappedVoxels(MappedVoxels&& other) noexcept
     : mapping_(std::exchange(other.mapping_, nullptr)), length_(other.length_), offset_(other.offset_) {}
 
+MappedVoxels& MappedVoxels::operator=(MappedVoxels&& other) noexcept {
+  std::swap(mapping_, other.mapping_);
+  std::swap(length_, other.length_);
+  std::swap(offset_, other.offset_);
+  return *this;
+}
+
 MappedVoxels::~MappedVoxels() {
   if (mapping_ != nullptr) {
     ::munmap(mapping_, length_);
   }
+}
+
+void MappedVoxels::page_out() const {
+#ifdef MADV_PAGEOUT
+  static_cast<void>(::madvise(mapping_, length_, MADV_PAGEOUT));  // advice: that it is not taken is no fault
+#endif
 }
 
 std::optional<MappedVoxels> map_raw_nrrd(const fs::path& path, std::size_t bytes,
@@ -53,7 +66,9 @@ std::optional<MappedVoxels> map_raw_nrrd(const fs::path& path, std::size_t bytes
     return std::nullopt;
   }
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  void* mapping = file < 0 ? MAP_FAILED : ::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file, 0);
+  void* mapping = file < 0
+                      ? MAP_FAILED
+                      : ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE, file, 0);
   if (file >= 0) {
     ::close(file);
   }

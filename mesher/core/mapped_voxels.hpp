@@ -7,15 +7,19 @@
 
 namespace cbc3d {
 
-/// A file mapped read-only; the system takes its pages from memory again whenever it needs to.
+/// A file mapped privately: what is written stays in memory, a page at a time, and never reaches the file.
+/// Pages that were only read the system takes from memory again whenever it needs to.
 class MappedVoxels {
  public:
   MappedVoxels(MappedVoxels&& other) noexcept;
-  MappedVoxels& operator=(MappedVoxels&&) = delete;
+  MappedVoxels& operator=(MappedVoxels&& other) noexcept;
   ~MappedVoxels();
 
   /// The first voxel's first byte.
-  [[nodiscard]] const void* data() const { return static_cast<const char*>(mapping_) + offset_; }
+  [[nodiscard]] void* data() const { return static_cast<char*>(mapping_) + offset_; }
+  /// Advises the system to take the pages that were not written from memory now; they come back when they are
+  /// looked at.
+  void page_out() const;
 
  private:
   friend std::optional<MappedVoxels> map_raw_nrrd(const std::filesystem::path&, std::size_t, std::size_t);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/voxel_rows.hpp"
 #include "mesher/stages/voxel_raster.hpp"
 
 namespace cbc3d {
@@ -27,29 +28,32 @@ struct Box {
 Box labelled_box(const LabelImage& image) {
   Box box;
   const auto& size = image.frame.size;
+  image.voxels.visit([&](const auto* voxels) {
 #pragma omp parallel
-  {
-    Box mine;
+    {
+      Box mine;
 #pragma omp for collapse(2) nowait
-    for (int k = 0; k < size[2]; ++k) {
-      for (int j = 0; j < size[1]; ++j) {
-        const MaterialId* row = image.voxels.data() + image.frame.offset(0, j, k);
-        const auto labelled = [](MaterialId m) { return m != kBackground; };
-        const MaterialId* first = std::find_if(row, row + size[0], labelled);
-        if (first != row + size[0]) {
-          const auto last = std::find_if(std::make_reverse_iterator(row + size[0]),
-                                         std::make_reverse_iterator(row), labelled);
-          mine.add(0, static_cast<int>(first - row), static_cast<int>(last.base() - row) - 1);
-          mine.add(1, j, j);
-          mine.add(2, k, k);
+      for (int k = 0; k < size[2]; ++k) {
+        for (int j = 0; j < size[1]; ++j) {
+          const auto* row = voxels + image.frame.offset(0, j, k);
+          const int first = row[0] != kBackground ? 0 : end_of_run(row, 0, size[0]);
+          if (first < size[0]) {
+            int last = size[0] - 1;
+            while (row[last] == kBackground) {
+              --last;
+            }
+            mine.add(0, first, last);
+            mine.add(1, j, j);
+            mine.add(2, k, k);
+          }
         }
       }
-    }
 #pragma omp critical(cbc3d_labelled_box)
-    for (int d = 0; d < 3; ++d) {
-      box.add(d, mine.low[static_cast<std::size_t>(d)], mine.high[static_cast<std::size_t>(d)]);
+      for (int d = 0; d < 3; ++d) {
+        box.add(d, mine.low[static_cast<std::size_t>(d)], mine.high[static_cast<std::size_t>(d)]);
+      }
     }
-  }
+  });
   return box;
 }
 
@@ -132,8 +136,10 @@ bool holds_labelled_voxel(const LabelImage& image, const VoxelRaster& raster, co
   bool found = false;
   raster.for_each_row(tet, [&](int j, int k, int i_begin, int i_end) {
     if (!found) {
-      const MaterialId* row = image.voxels.data() + image.frame.offset(0, j, k);
-      found = std::any_of(row + i_begin, row + i_end, [](MaterialId m) { return m != kBackground; });
+      found = image.voxels.visit([&](const auto* voxels) {
+        const auto* row = voxels + image.frame.offset(0, j, k);
+        return row[i_begin] != kBackground || end_of_run(row, i_begin, i_end) < i_end;
+      });
     }
   });
   return found;

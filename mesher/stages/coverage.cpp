@@ -1,8 +1,9 @@
 #include "mesher/stages/coverage.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+
+#include "mesher/core/voxel_rows.hpp"
 
 namespace cbc3d {
 
@@ -29,29 +30,31 @@ std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
 }
 
 BoundaryCoverage::BoundaryCoverage(const LabelImage& image)
-    : image_(image), state_(image.voxels.size(), kInterior), across_(image.voxels.size(), 0) {
+    : image_(image), uncovered_(image.voxels.size()), across_(image.voxels.size()) {
   const auto& size = image.frame.size;
+  const BoundaryRows rows(image);
+  std::vector<std::vector<std::size_t>> slices(static_cast<std::size_t>(size[2]));
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < size[2]; ++k) {
+    std::vector<int> found;
     for (int j = 0; j < size[1]; ++j) {
-      for (int i = 0; i < size[0]; ++i) {
-        if (image.at(i, j, k) != kBackground && is_boundary_voxel(image, i, j, k)) {
-          state_[image.frame.offset(i, j, k)] = kUncovered;
-        }
+      found.clear();
+      rows.find(j, k, found);
+      for (const int i : found) {
+        slices[static_cast<std::size_t>(k)].push_back(image.frame.offset(i, j, k));
       }
     }
   }
-  for (std::size_t v = 0; v < state_.size(); ++v) {
-    if (state_[v] == kUncovered) {
-      boundary_.push_back(v);
-    }
+  for (auto& slice : slices) {
+    boundary_.insert(boundary_.end(), slice.begin(), slice.end());
+    slice = {};
   }
 }
 
 void BoundaryCoverage::update(const std::vector<SurfaceVertex>& surface, const std::vector<Vec3>& points,
                               double distance_mm) {
   for (const std::size_t v : boundary_) {
-    state_[v] = kUncovered;
+    uncovered_.set(v);
   }
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::size_t s = 0; s < surface.size(); ++s) {
@@ -61,9 +64,9 @@ void BoundaryCoverage::update(const std::vector<SurfaceVertex>& surface, const s
 }
 
 void BoundaryCoverage::mark_across() {
-  std::fill(across_.begin(), across_.end(), 0);
+  across_.clear();
   for (const std::size_t v : boundary_) {
-    if (!is_uncovered(v)) {
+    if (!uncovered_.test(v)) {
       continue;
     }
     const Index3 at = image_.frame.index_of(v);
@@ -72,7 +75,9 @@ void BoundaryCoverage::mark_across() {
       across[n / 2] += n % 2 == 0 ? -1 : 1;
       if (image_.frame.contains(across[0], across[1], across[2])) {
         const std::size_t w = image_.frame.offset(across[0], across[1], across[2]);
-        across_[w] |= static_cast<std::uint8_t>(image_.voxels[w] != image_.voxels[v]);
+        if (image_.voxels[w] != image_.voxels[v]) {
+          across_.set(w);
+        }
       }
     }
   }
@@ -89,25 +94,28 @@ void BoundaryCoverage::cover_around(const Vec3& centre_mm, MaterialId material, 
                           static_cast<int>(std::floor((centre_mm[d] + distance_mm) / frame.spacing_mm[d])));
   }
   for (int k = low[2]; k <= high[2]; ++k) {
-    for (int j = low[1]; j <= high[1]; ++j) {
-      for (int i = low[0]; i <= high[0]; ++i) {
-        const std::size_t v = frame.offset(i, j, k);
+    for (int j = low[1]; j <= high[1] && low[0] <= high[0]; ++j) {
+      const std::size_t row = frame.offset(0, j, k);
+      const auto first = row + static_cast<std::size_t>(low[0]);
+      uncovered_.for_each(first, row + static_cast<std::size_t>(high[0]) + 1, [&](std::size_t v) {
+        const Vec3 centre = frame.local_centre(static_cast<int>(v - row), j, k);
         if (image_.voxels[v] == material &&
-            (frame.local_centre(i, j, k) - centre_mm).squared_norm() <= distance_mm * distance_mm) {
-          // Several threads may cover the same voxel; they write the same value.
-          std::atomic_ref<std::uint8_t> state(state_[v]);
-          if (state.load(std::memory_order_relaxed) == kUncovered) {
-            state.store(kCovered, std::memory_order_relaxed);
-          }
+            (centre - centre_mm).squared_norm() <= distance_mm * distance_mm) {
+          uncovered_.reset(v);
         }
-      }
+      });
     }
   }
 }
 
+bool BoundaryCoverage::wants_refinement(int j, int k, int i_begin, int i_end) const {
+  const std::size_t begin = image_.frame.offset(i_begin, j, k), end = image_.frame.offset(i_end, j, k);
+  return uncovered_.any(begin, end) || across_.any(begin, end);
+}
+
 std::size_t BoundaryCoverage::uncovered_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(boundary_.begin(), boundary_.end(), [this](std::size_t v) { return is_uncovered(v); }));
+  return static_cast<std::size_t>(std::count_if(boundary_.begin(), boundary_.end(),
+                                                [this](std::size_t v) { return uncovered_.test(v); }));
 }
 
 }  // namespace cbc3d

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
+#include "mesher/core/voxel_bits.hpp"
 #include "mesher/stages/tet_adjacency.hpp"
 
 namespace cbc3d {
@@ -32,26 +33,19 @@ class BoundaryCoverage {
   /// voxels within `distance_mm`.
   void update(const std::vector<SurfaceVertex>& surface, const std::vector<Vec3>& points, double distance_mm);
 
-  [[nodiscard]] bool is_uncovered(std::size_t voxel) const { return state_[voxel] == kUncovered; }
-  /// True for uncovered voxels and for their face neighbours of another material: an interface can only
-  /// appear between the two where the lattice resolves both.
-  [[nodiscard]] bool wants_refinement(std::size_t voxel) const {
-    return is_uncovered(voxel) || across_[voxel] != 0;
-  }
+  /// True when one of the voxels [i_begin, i_end) of row (j, k) is uncovered or a face neighbour, of another
+  /// material, of one that is: an interface can only appear between the two where the lattice resolves both.
+  [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const;
   /// Number of boundary voxels without a surface vertex nearby.
   [[nodiscard]] std::size_t uncovered_count() const;
 
  private:
-  static constexpr std::uint8_t kInterior = 0;
-  static constexpr std::uint8_t kUncovered = 1;
-  static constexpr std::uint8_t kCovered = 2;
-
   void mark_across();
   void cover_around(const Vec3& centre_mm, MaterialId material, double distance_mm);
 
   const LabelImage& image_;
-  std::vector<std::uint8_t> state_;    // a byte a voxel
-  std::vector<std::uint8_t> across_;   // 1: face neighbour of an uncovered voxel, of another material
+  VoxelBits uncovered_;                // boundary voxels only
+  VoxelBits across_;                   // face neighbours of uncovered voxels, of another material
   std::vector<std::size_t> boundary_;  // offsets of the boundary voxels, ascending
 };
 

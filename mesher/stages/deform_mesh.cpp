@@ -61,6 +61,7 @@ class Deformer {
     around_ = cells_of_vertices(mesh_);
     sources_ = extract_source_points(mesh_, around_, sets_);
     targets_ = extract_target_points(image_, options_.connectivity, sets_);
+    image_.voxels.page_out();
     report_.sources = sources_.sources.size();
     report_.targets = targets_.targets.size();
     displacement_.resize(mesh_.points.size());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "mesher/core/voxel_rows.hpp"
+
 namespace cbc3d {
 
 void LabelSet::insert(MaterialId material) {
@@ -80,10 +82,6 @@ void gather_facets(const std::vector<VertexId>& number, SourcePoints& points) {
   each([&](VertexId s, std::uint32_t f) { points.facets[next[s]++] = f; });
 }
 
-bool is_target_voxel(const LabelImage& image, int i, int j, int k) {
-  return image.at(i, j, k) != kBackground && is_boundary_voxel(image, i, j, k);
-}
-
 /// The neighbours that come earlier in raster order and, when accepted, bar a voxel.
 std::vector<Index3> barring_neighbours(Connectivity connectivity) {
   std::vector<Index3> offsets;
@@ -106,16 +104,13 @@ std::vector<Index3> barring_neighbours(Connectivity connectivity) {
 /// The boundary voxels by rows, found in parallel.
 std::vector<std::vector<int>> boundary_rows(const LabelImage& image) {
   const auto& size = image.frame.size;
+  const BoundaryRows boundary(image);
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]));
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const int j = static_cast<int>(r % static_cast<std::size_t>(size[1]));
     const int k = static_cast<int>(r / static_cast<std::size_t>(size[1]));
-    for (int i = 0; i < size[0]; ++i) {
-      if (is_target_voxel(image, i, j, k)) {
-        rows[r].push_back(i);
-      }
-    }
+    boundary.find(j, k, rows[r]);
   }
   return rows;
 }

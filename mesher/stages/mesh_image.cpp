@@ -185,6 +185,9 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
   MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {
     MaterialMesh kept = discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
     order_for_locality(kept);
+    // Nothing of the lattice is asked for from here on.
+    candidate = {};
+    lattice = {};
     return kept;
   });
   log.dump("2_candidate_mesh", mesh);

@@ -119,13 +119,12 @@ class Refiner {
     const MaterialId own = result_.mesh.materials[t];
     bool uncovered = false;
     raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-      const std::size_t row = image_.frame.offset(0, j, k);
       inside += static_cast<std::size_t>(i_end - i_begin);
-      for (int i = i_begin; i < i_end; ++i) {
-        const std::size_t v = row + static_cast<std::size_t>(i);
-        common += static_cast<std::size_t>(image_.voxels[v] == own);
-        uncovered = uncovered || (coverage_ && coverage_->wants_refinement(v));
-      }
+      common += image_.voxels.visit([&](const auto* voxels) {
+        const auto* row = voxels + image_.frame.offset(0, j, k);
+        return static_cast<std::size_t>(std::count(row + i_begin, row + i_end, own));
+      });
+      uncovered = uncovered || (coverage_ && coverage_->wants_refinement(j, k, i_begin, i_end));
     });
     if (uncovered) {
       mark_tet(t);
@@ -240,10 +239,11 @@ class Refiner {
       const MaterialId own = mesh.materials[t];
       bool misjudged = false;
       raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-        const MaterialId* row = image_.voxels.data() + image_.frame.offset(0, j, k);
-        for (int i = i_begin; i < i_end; ++i) {
-          misjudged = misjudged || (row[i] != own && (unmet[row[i]] != 0 || unmet[own] != 0));
-        }
+        misjudged = misjudged || image_.voxels.visit([&](const auto* voxels) {
+          const auto* row = voxels + image_.frame.offset(0, j, k);
+          return std::any_of(row + i_begin, row + i_end,
+                             [&](MaterialId m) { return m != own && (unmet[m] != 0 || unmet[own] != 0); });
+        });
       });
       if (misjudged) {
         mark_tet(t);

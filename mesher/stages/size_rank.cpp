@@ -3,24 +3,33 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesher/core/voxel_rows.hpp"
+
 namespace cbc3d {
 namespace {
 
 /// Offset of the first voxel of every material; the voxel count where there is none.
 std::vector<std::size_t> first_voxels(const LabelImage& image) {
   std::vector<std::size_t> first(image.material_count(), image.voxels.size());
+  const auto nx = static_cast<std::size_t>(image.frame.size[0]);
+  const std::size_t rows = nx > 0 ? image.voxels.size() / nx : 0;
+  image.voxels.visit([&](const auto* voxels) {
 #pragma omp parallel
-  {
-    std::vector<std::size_t> mine(first.size(), image.voxels.size());
+    {
+      std::vector<std::size_t> mine(first.size(), image.voxels.size());
 #pragma omp for schedule(static) nowait
-    for (std::size_t v = 0; v < image.voxels.size(); ++v) {
-      mine[image.voxels[v]] = std::min(mine[image.voxels[v]], v);
-    }
+      for (std::size_t r = 0; r < rows; ++r) {
+        const auto* row = voxels + r * nx;
+        for (int i = 0; i < image.frame.size[0]; i = end_of_run(row, i, image.frame.size[0])) {
+          mine[row[i]] = std::min(mine[row[i]], r * nx + static_cast<std::size_t>(i));
+        }
+      }
 #pragma omp critical(cbc3d_first_voxels)
-    for (std::size_t m = 0; m < first.size(); ++m) {
-      first[m] = std::min(first[m], mine[m]);
+      for (std::size_t m = 0; m < first.size(); ++m) {
+        first[m] = std::min(first[m], mine[m]);
+      }
     }
-  }
+  });
   return first;
 }
 

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "mesher/core/voxel_rows.hpp"
+
 namespace cbc3d {
 namespace {
 
@@ -66,13 +68,17 @@ struct Change {
 
 std::vector<Change> changes_of_slice(const LabelImage& image, int k, NoisyVoxels which) {
   std::vector<Change> changes;
-  for (int j = 0; j < image.frame.size[1]; ++j) {
-    for (int i = 0; i < image.frame.size[0]; ++i) {
-      if (is_noisy(image, i, j, k, which)) {
-        changes.push_back({image.frame.offset(i, j, k), most_frequent(neighbourhood_of(image, i, j, k))});
+  image.voxels.visit([&](const auto* voxels) {
+    for (int j = 0; j < image.frame.size[1]; ++j) {
+      const auto* row = voxels + image.frame.offset(0, j, k);
+      for (int i = 0, end = 0; i < image.frame.size[0]; i = end) {
+        end = end_of_run(row, i, image.frame.size[0]);
+        if (end == i + 1 && is_noisy(image, i, j, k, which)) {  // those in a longer run are not
+          changes.push_back({image.frame.offset(i, j, k), most_frequent(neighbourhood_of(image, i, j, k))});
+        }
       }
     }
-  }
+  });
   return changes;
 }
 
@@ -91,7 +97,7 @@ NoiseReport relabel_noisy_voxels(LabelImage& image, NoisyVoxels which) {
   for (const auto& slice : changes) {
     for (const Change& change : slice) {
       ++(image.voxels[change.voxel] == kBackground ? report.holes_filled : report.specks_relabelled);
-      image.voxels[change.voxel] = change.material;
+      image.voxels.set(change.voxel, change.material);
     }
   }
   return report;

@@ -4,7 +4,11 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <vector>
+
+#include "mesher/core/error.hpp"
+#include "mesher/core/voxel_rows.hpp"
 
 namespace cbc3d {
 namespace {
@@ -41,19 +45,22 @@ class Regions {
   [[nodiscard]] const std::vector<Region>& list() const { return regions_; }
 
   /// Gives the voxels of every region r the material to[r].
-  void assign(const std::vector<MaterialId>& to, std::vector<MaterialId>& voxels) const {
+  void assign(const std::vector<MaterialId>& to, LabelVoxels& voxels) const {
     const auto nx = static_cast<std::size_t>(image_.frame.size[0]);
     const std::size_t rows = first_.size() - 1;
+    voxels.hold(image_.material_count());
+    voxels.visit([&]<typename Voxel>(Voxel* all) {
 #pragma omp parallel for schedule(static)
-    for (std::size_t row = 0; row < rows; ++row) {
-      for (std::size_t r = first_[row]; r < first_[row + 1]; ++r) {
-        const MaterialId material = to[parent_[r]];
-        if (material != runs_[r].material) {
-          std::fill(voxels.begin() + static_cast<std::ptrdiff_t>(row * nx) + runs_[r].begin,
-                    voxels.begin() + static_cast<std::ptrdiff_t>(row * nx) + runs_[r].end, material);
+      for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t r = first_[row]; r < first_[row + 1]; ++r) {
+          const MaterialId material = to[parent_[r]];
+          if (material != runs_[r].material) {
+            Voxel* const begin = all + row * nx;
+            std::fill(begin + runs_[r].begin, begin + runs_[r].end, static_cast<Voxel>(material));
+          }
         }
       }
-    }
+    });
   }
 
  private:
@@ -68,6 +75,10 @@ class Regions {
       first_[row + 1] = count;
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    if (first_.back() > std::numeric_limits<std::uint32_t>::max()) {
+      throw JobError("the image has " + std::to_string(first_.back()) +
+                     " runs of equal voxels, more than can be numbered; remove its noise first");
+    }
     runs_.resize(first_.back());
 #pragma omp parallel for schedule(static)
     for (std::size_t row = 0; row < rows; ++row) {
@@ -79,17 +90,16 @@ class Regions {
   template <typename Action>
   void for_each_run(std::size_t row, const Action& action) const {
     const std::int32_t nx = image_.frame.size[0];
-    const MaterialId* voxels = image_.voxels.data() + row * static_cast<std::size_t>(nx);
-    for (std::int32_t i = 0; i < nx;) {
-      std::int32_t end = i + 1;
-      while (end < nx && voxels[end] == voxels[i]) {
-        ++end;
+    image_.voxels.visit([&](const auto* all) {
+      const auto* voxels = all + row * static_cast<std::size_t>(nx);
+      for (std::int32_t i = 0; i < nx;) {
+        const std::int32_t end = end_of_run(voxels, i, nx);
+        if (voxels[i] != kBackground) {
+          action(Run{i, end, voxels[i]});
+        }
+        i = end;
       }
-      if (voxels[i] != kBackground) {
-        action(Run{i, end, voxels[i]});
-      }
-      i = end;
-    }
+    });
   }
 
   std::uint32_t root(std::uint32_t r) {

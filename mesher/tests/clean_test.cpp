@@ -180,8 +180,8 @@ TEST(CleanImage, RegionsOfTheCleanImageTouchByFacesOrNotAtAll) {
   CleanOptions options;
   options.region_tolerance = 0;
   clean_image(image, options, true);
-  for (MaterialId& m : image.voxels) {  // back to one material a label
-    m = static_cast<MaterialId>(image.labels[m]);
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {  // back to one material a label
+    image.voxels.set(v, static_cast<MaterialId>(image.labels[image.voxels[v]]));
   }
   EXPECT_EQ(contacts_by_definition(image), 0U);
 }

@@ -259,8 +259,9 @@ TEST(SelectCandidate, DoesNotDependOnLabelOrder) {
     return (p - Vec3{14, 15, 15}).norm() < 11 ? 1 : (p - Vec3{24, 15, 15}).norm() < 9 ? 2 : 0;
   });
   LabelImage swapped = image;
-  for (MaterialId& m : swapped.voxels) {
-    m = m == 0 ? m : static_cast<MaterialId>(3 - m);
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    const MaterialId m = image.voxels[v];
+    swapped.voxels.set(v, m == 0 ? m : static_cast<MaterialId>(3 - m));
   }
   const Mesh a = mesh_of(image);
   const Mesh b = mesh_of(swapped);

@@ -299,7 +299,8 @@ TEST(Betti, OpenSetIsTheDualOfTheComplement) {
     };
     const LabelImage image = image_of({7, 6, 6}, inside);
     LabelImage rest = image;
-    for (MaterialId& m : rest.voxels) m = static_cast<MaterialId>(1 - m);
+    for (std::size_t v = 0; v < rest.voxels.size(); ++v)
+      rest.voxels.set(v, static_cast<MaterialId>(1 - image.voxels[v]));
     const auto closed = image_topology(image).per_material[1].closed.b;
     const auto open = image_topology(rest).per_material[1].open.b;
     // The rest is a ball less the set: a part more for each cavity, a tunnel for each tunnel, a cavity for

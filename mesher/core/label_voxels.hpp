@@ -1,0 +1,128 @@
+// The voxels of a label image: one byte each while the materials allow it, in memory or in a mapped file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mesher/core/mapped_voxels.hpp"
+
+namespace cbc3d {
+
+/// Index into LabelImage::labels; material 0 is background.
+using MaterialId = std::uint16_t;
+
+inline constexpr MaterialId kBackground = 0;
+
+/// Material indices, one byte each until one above 255 is written, then two. Reading costs a branch that is
+/// always taken the same way; loops over rows take the type once by `visit`.
+class LabelVoxels {
+ public:
+  LabelVoxels() = default;
+  /// `count` voxels of background, narrow.
+  explicit LabelVoxels(std::size_t count) : narrow_(count) { point_to_own(); }
+  /// The first `count` bytes of a mapped file, each of them a material index. What is written stays in
+  /// memory.
+  LabelVoxels(MappedVoxels file, std::size_t count)
+      : file_(std::move(file)), count_(count), bytes_(static_cast<std::uint8_t*>(file_->data())) {}
+
+  /// A copy is in memory, whatever it is of.
+  LabelVoxels(const LabelVoxels& other);
+  LabelVoxels(LabelVoxels&& other) noexcept;
+  LabelVoxels& operator=(LabelVoxels other) noexcept;
+  ~LabelVoxels() = default;
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+  /// Two bytes a voxel.
+  [[nodiscard]] bool is_wide() const { return words_ != nullptr; }
+  [[nodiscard]] std::size_t bytes() const { return count_ * (is_wide() ? 2 : 1); }
+
+  [[nodiscard]] MaterialId operator[](std::size_t v) const {
+    return bytes_ != nullptr ? MaterialId{bytes_[v]} : words_[v];
+  }
+
+  /// Several threads may set voxels at once if hold() was called for their materials before.
+  void set(std::size_t v, MaterialId material) {
+    if (bytes_ != nullptr && material > kMostNarrow) {
+      widen();
+    }
+    if (bytes_ != nullptr) {
+      bytes_[v] = static_cast<std::uint8_t>(material);
+    } else {
+      words_[v] = material;
+    }
+  }
+
+  /// A voxel to be read or set.
+  class Reference {
+   public:
+    Reference(LabelVoxels& voxels, std::size_t v) : voxels_(voxels), v_(v) {}
+    Reference(const Reference&) = default;
+    Reference& operator=(const Reference& other) { return *this = static_cast<MaterialId>(other); }
+    Reference& operator=(MaterialId material) {
+      voxels_.set(v_, material);
+      return *this;
+    }
+    operator MaterialId() const { return std::as_const(voxels_)[v_]; }  // NOLINT: it stands for the voxel
+
+   private:
+    LabelVoxels& voxels_;
+    std::size_t v_;
+  };
+  [[nodiscard]] Reference operator[](std::size_t v) { return {*this, v}; }
+
+  /// Makes room for material indices below `materials`: widens where one byte is too little.
+  void hold(std::size_t materials) {
+    if (bytes_ != nullptr && materials > std::size_t{kMostNarrow} + 1) {
+      widen();
+    }
+  }
+
+  /// `count` voxels of one material; what was there is gone.
+  void assign(std::size_t count, MaterialId material);
+  /// `count` voxels of background; what was there is gone.
+  void resize(std::size_t count) { assign(count, kBackground); }
+  void push_back(MaterialId material);
+
+  /// Calls f(pointer to the first voxel), of const std::uint8_t or const std::uint16_t; returns what f does.
+  template <typename F>
+  decltype(auto) visit(F&& f) const {
+    return words_ != nullptr ? std::forward<F>(f)(static_cast<const std::uint16_t*>(words_))
+                             : std::forward<F>(f)(static_cast<const std::uint8_t*>(bytes_));
+  }
+  /// The same to write to. What is written must fit (hold()).
+  template <typename F>
+  decltype(auto) visit(F&& f) {
+    return words_ != nullptr ? std::forward<F>(f)(words_) : std::forward<F>(f)(bytes_);
+  }
+
+  /// To be called when no voxel is looked at for a while: a large mapped file leaves the memory until one is.
+  void page_out() const {
+    if (file_ && count_ >= kLarge) {
+      file_->page_out();
+    }
+  }
+
+  /// The first voxel while each is one byte, null when they are wide.
+  [[nodiscard]] std::uint8_t* narrow() { return bytes_; }
+
+  bool operator==(const LabelVoxels& other) const;
+
+ private:
+  static constexpr MaterialId kMostNarrow = 255;
+  static constexpr std::size_t kLarge = std::size_t{1} << 30U;
+
+  void point_to_own();
+  void widen();
+
+  std::optional<MappedVoxels> file_;
+  std::vector<std::uint8_t> narrow_;
+  std::vector<std::uint16_t> wide_;
+  std::size_t count_ = 0;
+  std::uint8_t* bytes_ = nullptr;   // into the file or narrow_; null when wide
+  std::uint16_t* words_ = nullptr;  // into wide_; null when narrow
+};
+
+}  // namespace cbc3d

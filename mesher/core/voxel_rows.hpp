@@ -1,0 +1,57 @@
+// Rows of voxels looked at eight bytes at a time: nearly all of an image is alike, and is passed over so.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "mesher/core/label_image.hpp"
+
+namespace cbc3d {
+
+/// Voxels in eight bytes.
+template <typename Voxel>
+inline constexpr int kVoxelsInWord = static_cast<int>(sizeof(std::uint64_t) / sizeof(Voxel));
+
+/// Eight bytes of voxels as one number.
+template <typename Voxel>
+std::uint64_t voxel_word(const Voxel* first) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, first, sizeof word);
+  return word;
+}
+
+/// The first index in (i, end) whose voxel differs from voxel i; `end` when there is none.
+template <typename Voxel>
+int end_of_run(const Voxel* row, int i, int end) {
+  constexpr int kStep = kVoxelsInWord<Voxel>;
+  const Voxel value = row[i];
+  ++i;
+  if (i < end && row[i] != value) {
+    return i;
+  }
+  const std::uint64_t uniform = value * (~std::uint64_t{0} / static_cast<Voxel>(~Voxel{0}));
+  while (i + kStep <= end && voxel_word(row + i) == uniform) {
+    i += kStep;
+  }
+  while (i < end && row[i] == value) {
+    ++i;
+  }
+  return i;
+}
+
+/// Finds the boundary voxels of the labelled materials, row by row. The outside of the image counts as
+/// background.
+class BoundaryRows {
+ public:
+  /// `image` must outlive this.
+  explicit BoundaryRows(const LabelImage& image);
+  /// Appends the index along x of every labelled boundary voxel (is_boundary_voxel) of row (j, k), ascending.
+  void find(int j, int k, std::vector<int>& found) const;
+
+ private:
+  const LabelImage& image_;
+  std::vector<std::uint16_t> none_;  // a row of background
+};
+
+}  // namespace cbc3d
