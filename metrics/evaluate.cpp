@@ -6,6 +6,7 @@
 #include "metrics/element_quality.hpp"
 #include "metrics/faults.hpp"
 #include "metrics/fidelity.hpp"
+#include "metrics/self_intersection.hpp"
 #include "metrics/surface.hpp"
 #include "metrics/topology.hpp"
 
@@ -46,13 +47,16 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const Surface surface = extract_surface(view, facets);
   const Topology connected = topology(view, facets, surface);
   facets = {};
+  progress.step("self-intersections", 0.2);
+  const SelfIntersections crossing = self_intersections(view, surface);
   progress.step("topology of the image", 0.25);
   const ImageTopology in_image = image_topology(image);
   result["topology"] = to_json(connected, view, in_image, image);
+  write_json(result["topology"], crossing, view, surface);
   const FidelityOptions how = fidelity_options(options, image.frame);
   const Fidelity near = fidelity(view, image, surface, how, progress);
   result["fidelity"] = to_json(near, how);
-  result["faults"] = describe_faults(view, quality, connected, in_image, image, near.labels);
+  result["faults"] = describe_faults(view, quality, connected, crossing, in_image, image, near.labels);
   progress.step("evaluated", 1);
   return result;
 }
