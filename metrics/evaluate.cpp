@@ -6,6 +6,7 @@
 #include "metrics/element_quality.hpp"
 #include "metrics/faults.hpp"
 #include "metrics/fidelity.hpp"
+#include "metrics/one_look.hpp"
 #include "metrics/self_intersection.hpp"
 #include "metrics/surface.hpp"
 #include "metrics/topology.hpp"
@@ -57,6 +58,7 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const Fidelity near = fidelity(view, image, surface, how, progress);
   result["fidelity"] = to_json(near, how);
   result["faults"] = describe_faults(view, quality, connected, crossing, in_image, image, near.labels);
+  result["one_look"] = one_look({view, image.frame, quality, connected, crossing, near});
   progress.step("evaluated", 1);
   return result;
 }

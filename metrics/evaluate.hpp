@@ -24,6 +24,7 @@ struct EvaluateOptions {
 ///   quality   see element_quality.hpp;
 ///   fidelity  see fidelity.hpp;
 ///   topology  see topology.hpp and self_intersection.hpp;
+///   one_look  the few figures to look at first, see one_look.hpp;
 ///   faults    what is wrong with the mesh, a line each, see faults.hpp.
 /// A figure that cannot be had is null, never NaN. The bytes do not depend on the thread count. Throws
 /// InputError when a cell names a vertex that does not exist or a coordinate is not finite.
