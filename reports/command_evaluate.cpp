@@ -50,13 +50,15 @@ int evaluate(const EvaluateCommandOptions& options) {
   const LabelImage image = read_label_image(options.image);
   nlohmann::json evaluation = metrics::evaluate(mesh, image, options.metrics, progress);
   evaluation["image"] = image_section(image);
+  constexpr double kMegabytesPerByte = 1e-6;
+  evaluation["evaluation_peak_mb"] = kMegabytesPerByte * static_cast<double>(process_peak_rss_bytes());
   progress.done();
   if (!options.json.empty()) {
     write_text_file(options.json,
                     evaluation.dump(evaluation.at("quality").at("per_label").size() > 1000 ? -1 : 2) + "\n");
   }
   if (!options.quiet) {
-    for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
+    for (const char* section : {"counts", "quality", "fidelity", "topology", "one_look"}) {
       print_section(evaluation, section);
     }
     std::cout << "faults: " << evaluation.at("faults").size() << '\n';
