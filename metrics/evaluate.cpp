@@ -59,6 +59,10 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   result["fidelity"] = to_json(near, how);
   result["faults"] = describe_faults(view, quality, connected, crossing, in_image, image, near.labels);
   result["one_look"] = one_look({view, image.frame, quality, connected, crossing, near});
+  if (options.shapes) {
+    progress.step("true shape", 0.97);
+    result["shape"] = to_json(compare_with_shapes(view, image, surface, options.shapes));
+  }
   progress.step("evaluated", 1);
   return result;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "reports/markup.hpp"
+#include "reports/table.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -254,6 +255,7 @@ class Axis {
   Axis(std::vector<double> values, bool logarithmic, std::optional<double> limit)
       : logarithmic_(logarithmic) {
     if (limit) {
+      values.push_back(kRoom * *limit);
       values.push_back(*limit);
     }
     const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
@@ -267,6 +269,8 @@ class Axis {
   [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
 
  private:
+  static constexpr double kRoom = 1.2;  ///< beyond a limit, to show that it is one
+
   /// 1, 2, 5, 10, ... from at most `lowest` to at least `highest`, only powers of ten when these are many.
   static std::vector<double> steps_of_125(double lowest, double highest) {
     constexpr std::size_t kMostTicks = 8;
@@ -306,8 +310,9 @@ struct Plane {
 std::string plane_axes(const Scatter& scatter, const Plane& plane) {
   std::string svg = text(kWidth / 2, 22, scatter.title, "middle", 16);
   for (const double tick : plane.y_axis.ticks()) {
+    const std::string name = tick < 1000 ? tick_text(tick) : format_number(tick, 0);
     svg += line(kLeft, plane.y(tick), kWidth - kRight, plane.y(tick), "#d8d8d8");
-    svg += text(kLeft - 6, plane.y(tick) + 4, tick_text(tick), "end", 13);
+    svg += text(kLeft - 6, plane.y(tick) + 4, name, "end", 12);
   }
   for (const double tick : plane.x_axis.ticks()) {
     svg += line(plane.x(tick), kTop, plane.x(tick), kPlotBottom, "#d8d8d8");

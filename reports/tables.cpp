@@ -137,6 +137,9 @@ std::vector<Table> build_tables(const std::vector<Json>& results, const std::vec
     }
   }
   tables.push_back(target_table(results));
+  if (Table smooth = smoothness_table(results); !smooth.rows.empty()) {
+    tables.push_back(std::move(smooth));
+  }
   return tables;
 }
 

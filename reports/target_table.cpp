@@ -153,4 +153,58 @@ Table target_table(const std::vector<Json>& results) {
   return table;
 }
 
+namespace {
+
+const std::vector<Measure>& smoothness_measures() {
+  static const std::vector<Measure> measures{
+      {"normal deviation, mean (deg)", 2, "", at({"shape", "normal_deviation_deg"})},
+      {"area excess (%)", 2, "", at({"shape", "area_excess_percent"})},
+      {"distance to the shape, mean (mm)", 3, "", at({"shape", "mean_distance_mm"})},
+      {"distance to the shape, largest (mm)", 2, "", at({"shape", "max_distance_mm"})}};
+  return measures;
+}
+
+/// The lines of a case whose true shape is known.
+std::vector<const Json*> lines_with_shape(const std::vector<Json>& results, const std::string& case_name) {
+  std::vector<const Json*> lines;
+  for (const Json& result : results) {
+    if (text_of(result, "case") == case_name && smoothness_measures().front().figure(result)) {
+      lines.push_back(&result);
+    }
+  }
+  return lines;
+}
+
+/// The voxel faces have the same figures beside every mesh that has the same labels: the first that has most
+/// is taken.
+Cell voxel_cell(const std::vector<const Json*>& lines, const Measure& measure) {
+  const auto labels = [](const Json* line) { return figure(*line, {"shape", "per_label"}).size(); };
+  const Json* most = *std::max_element(lines.begin(), lines.end(),
+                                       [&](const Json* a, const Json* b) { return labels(a) < labels(b); });
+  const auto value = measure.figure({{"shape", figure(*most, {"shape", "voxel_surface"})}});
+  return value ? number_cell(*value, measure.decimals) : Cell{};
+}
+
+}  // namespace
+
+Table smoothness_table(const std::vector<Json>& results) {
+  const Columns columns(results);
+  Table table{"smoothness",    "Surfaces against the true shape, where that is known",
+              columns.names(), {},
+              "case",          "figure"};
+  for (const std::string& case_name : case_names(results)) {
+    const std::vector<const Json*> lines = lines_with_shape(results, case_name);
+    for (const Measure& measure : lines.empty() ? std::vector<Measure>{} : smoothness_measures()) {
+      Row row{case_name, measure.name, measure.decimals, {}};
+      for (const std::string& column : columns.names()) {
+        row.cells.push_back(cell_of(columns.runs(case_name, column), measure));
+      }
+      row.cells.push_back(voxel_cell(lines, measure));
+      table.rows.push_back(std::move(row));
+    }
+  }
+  table.columns.push_back("voxel surface");
+  return table;
+}
+
 }  // namespace cbc3d::reports

@@ -1,4 +1,5 @@
-// What a good mesh should have, mesher by mesher, and what it misses.
+// What a good mesh should have, mesher by mesher, and what it misses; how smooth it is where that can be
+// known.
 #pragma once
 
 #include <vector>
@@ -14,5 +15,10 @@ namespace cbc3d::reports {
 /// the labels in question; the last row of a case counts them. Element count and distances in mm stand there
 /// without limit.
 Table target_table(const std::vector<Json>& results);
+
+/// For every case whose true shape is known (section `shape` of its lines) the normal deviation, area excess
+/// and distance of every mesher's surface and, as a reference, of the voxel faces. Without rows when no case
+/// is.
+Table smoothness_table(const std::vector<Json>& results);
 
 }  // namespace cbc3d::reports
