@@ -23,6 +23,11 @@ struct Box {
       high[axis] = std::max(high[axis], p[axis]);
     }
   }
+  /// Touching boxes overlap.
+  [[nodiscard]] bool overlaps(const Box& o) const {
+    return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y &&
+           low.z <= o.high.z && o.low.z <= high.z;
+  }
   [[nodiscard]] double squared_distance(const Vec3& p) const {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -33,7 +38,8 @@ struct Box {
   }
 };
 
-/// `Primitive` has `void add_to(Box&) const` (its bounds) and `double squared_distance(const Vec3&) const`.
+/// `Primitive` has `void add_to(Box&) const` (its bounds) and, for queries by distance,
+/// `double squared_distance(const Vec3&) const`.
 /// Nodes lie in heap order; every level halves its range, so ranges need no storing.
 template <class Primitive>
 class BoxTree {
@@ -52,6 +58,10 @@ class BoxTree {
 
   [[nodiscard]] bool empty() const {
     return primitives_.empty();
+  }
+
+  [[nodiscard]] std::size_t size() const {
+    return primitives_.size();
   }
 
   [[nodiscard]] const Primitive& primitive(std::size_t index) const {
@@ -117,6 +127,34 @@ class BoxTree {
       stack[depth++] = {0, 2 * at.node + 1, at.begin, middle};
     }
     return false;
+  }
+
+  /// Calls visit(primitive) for each primitive of an index from `first` on whose box overlaps `box`, in
+  /// order.
+  template <class Visit>
+  void for_each_overlapping(const Box& box, std::size_t first, const Visit& visit) const {
+    std::array<Pending, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, 0, 0, primitives_.size()};
+    while (depth > 0) {
+      const Pending at = stack[--depth];
+      if (at.end <= first || !nodes_[at.node].overlaps(box)) {
+        continue;
+      }
+      if (at.node >= first_leaf_) {
+        for (std::size_t i = std::max(at.begin, first); i < at.end; ++i) {
+          Box own;
+          primitives_[i].add_to(own);
+          if (own.overlaps(box)) {
+            visit(primitives_[i]);
+          }
+        }
+        continue;
+      }
+      const std::size_t middle = at.begin + (at.end - at.begin) / 2;
+      stack[depth++] = {0, 2 * at.node + 2, middle, at.end};
+      stack[depth++] = {0, 2 * at.node + 1, at.begin, middle};
+    }
   }
 
  private:

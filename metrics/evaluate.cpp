@@ -6,6 +6,8 @@
 #include "metrics/element_quality.hpp"
 #include "metrics/faults.hpp"
 #include "metrics/fidelity.hpp"
+#include "metrics/one_look.hpp"
+#include "metrics/self_intersection.hpp"
 #include "metrics/surface.hpp"
 #include "metrics/topology.hpp"
 
@@ -46,13 +48,21 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const Surface surface = extract_surface(view, facets);
   const Topology connected = topology(view, facets, surface);
   facets = {};
+  progress.step("self-intersections", 0.2);
+  const SelfIntersections crossing = self_intersections(view, surface);
   progress.step("topology of the image", 0.25);
   const ImageTopology in_image = image_topology(image);
   result["topology"] = to_json(connected, view, in_image, image);
+  write_json(result["topology"], crossing, view, surface);
   const FidelityOptions how = fidelity_options(options, image.frame);
   const Fidelity near = fidelity(view, image, surface, how, progress);
   result["fidelity"] = to_json(near, how);
-  result["faults"] = describe_faults(view, quality, connected, in_image, image, near.labels);
+  result["faults"] = describe_faults(view, quality, connected, crossing, in_image, image, near.labels);
+  result["one_look"] = one_look({view, image.frame, quality, connected, crossing, near});
+  if (options.shapes) {
+    progress.step("true shape", 0.97);
+    result["shape"] = to_json(compare_with_shapes(view, image, surface, options.shapes));
+  }
   progress.step("evaluated", 1);
   return result;
 }

@@ -6,6 +6,7 @@
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 #include "mesher/core/progress.hpp"
+#include "metrics/shape_comparison.hpp"
 
 namespace cbc3d::metrics {
 
@@ -17,13 +18,16 @@ struct EvaluateOptions {
   bool smooth = true;       ///< distances to and smoothness against the smooth surfaces of the labels
   bool certified = true;    ///< certified bounds of the surface Hausdorff distances
   double tolerance_mm = 0;  ///< upper less lower bound; 0: kRelativeTolerance of the smallest spacing
+  LabelShapes shapes = {};  ///< the true shape of the image's labels; empty: not known
 };
 
 /// Judges `mesh` (physical LPS mm) against `image`. Returns an object with exactly the keys
 ///   counts    vertices, tets, pyramids, wedges, hexes;
 ///   quality   see element_quality.hpp;
 ///   fidelity  see fidelity.hpp;
-///   topology  see topology.hpp;
+///   topology  see topology.hpp and self_intersection.hpp;
+///   one_look  the few figures to look at first, see one_look.hpp;
+///   shape     only with EvaluateOptions::shapes: the mesh against them, see shape_comparison.hpp;
 ///   faults    what is wrong with the mesh, a line each, see faults.hpp.
 /// A figure that cannot be had is null, never NaN. The bytes do not depend on the thread count. Throws
 /// InputError when a cell names a vertex that does not exist or a coordinate is not finite.

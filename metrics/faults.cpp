@@ -78,8 +78,9 @@ void add_label_faults(FaultList& faults, const MeshView& view, const Topology& t
 }  // namespace
 
 std::vector<std::string> describe_faults(const MeshView& view, const MeshQuality& quality,
-                                         const Topology& topology, const ImageTopology& image_topology,
-                                         const LabelImage& image, const LabelComparison& labels) {
+                                         const Topology& topology, const SelfIntersections& crossing,
+                                         const ImageTopology& image_topology, const LabelImage& image,
+                                         const LabelComparison& labels) {
   FaultList faults(view);
   if (view.cell_count() == 0) {
     faults.add("the mesh has no cells");
@@ -101,6 +102,11 @@ std::vector<std::string> describe_faults(const MeshView& view, const MeshQuality
   faults.add_at_vertex(topology.hanging_vertices,
                        "vertices that hang in a facet or an edge of another cell (T-junctions)");
   faults.add_at_vertex(topology.unused_vertices, "vertices of no cell");
+  if (crossing.pairs > 0) {
+    faults.add(std::to_string(crossing.pairs) +
+               " pairs of surface facets that cut, touch or overlap each other, first at " +
+               place(crossing.first_at_mm));
+  }
   for (const Label label : labels.missing) {
     faults.add("label " + std::to_string(label) + " of the image is in no cell");
   }

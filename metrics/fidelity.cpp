@@ -67,6 +67,7 @@ class FidelityMeasurer {
     }
     progress_.step("distances", 0.95);
     result.outer = outer_is_ ? *outer_is_ : measure_surface(outer_);
+    result.outer_points = point_set_distance(outer_voxels(), outer_vertices());
     std::sort(result.per_interface.begin(), result.per_interface.end(),
               [](const auto& a, const auto& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); });
     return result;
@@ -129,6 +130,31 @@ class FidelityMeasurer {
     row.surface = measure_surface(parts);
     measure_interfaces(m, parts, row.surface, result);
     result.per_label.push_back(std::move(row));
+  }
+
+  // Centres of the voxels that show a face to background, each once.
+  [[nodiscard]] std::vector<Vec3> outer_voxels() const {
+    std::vector<Vec3> centres;
+    const VoxelFace* last = nullptr;
+    for (const VoxelFace& face : outer_.faces) {  // a voxel's faces lie side by side
+      if (last == nullptr || last->voxel != face.voxel) {
+        centres.push_back(image_.frame.local_centre(face.voxel[0], face.voxel[1], face.voxel[2]));
+      }
+      last = &face;
+    }
+    return centres;
+  }
+
+  [[nodiscard]] std::vector<Vec3> outer_vertices() const {
+    std::vector<VertexId> vertices;
+    for (const std::uint32_t f : outer_.facets) {
+      const SurfaceFacet& facet = surface_.facets[f];
+      vertices.insert(vertices.end(), facet.nodes.begin(),
+                      facet.nodes.begin() + static_cast<std::ptrdiff_t>(facet.corners()));
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return positions(vertices, view_.local_points());
   }
 
   // Those with background and with the materials before m.
@@ -262,6 +288,11 @@ void write_points(json& object, const std::optional<double>& image_to_mesh,
   object["mesh_to_image_mm"] = number_or_null(mesh_to_image);
 }
 
+void write_points(json& object, const std::optional<PointSetDistance>& points) {
+  write_points(object, points ? std::optional(points->image_to_mesh_mm) : std::nullopt,
+               points ? std::optional(points->mesh_to_image_mm) : std::nullopt);
+}
+
 json label_json(const LabelFidelity& row, bool with_directions) {
   json object{{"label", row.label},
               {"voxels", row.voxels},
@@ -270,9 +301,7 @@ json label_json(const LabelFidelity& row, bool with_directions) {
               {"volume_error_percent", volume_error_percent(row)},
               {"dice", row.overlap.dice()},
               {"smoothness", to_json(row.smoothness, row.smooth_smoothness)}};
-  const auto& points = row.points;
-  write_points(object, points ? std::optional(points->image_to_mesh_mm) : std::nullopt,
-               points ? std::optional(points->mesh_to_image_mm) : std::nullopt);
+  write_points(object, row.points);
   write_surface(object, row.surface);
   if (with_directions) {
     write_directions(object, row.surface);
@@ -337,6 +366,7 @@ json to_json(const Fidelity& fidelity, const FidelityOptions& options) {
   write_points(object, totals.image_to_mesh, totals.mesh_to_image);
   totals.voxel.write_to(object, "");
   totals.smooth.write_to(object, "smooth_");
+  write_points(object["outer_surface"], fidelity.outer_points);
   write_surface(object["outer_surface"], fidelity.outer);
   write_directions(object["outer_surface"], fidelity.outer);
   return object;

@@ -47,6 +47,9 @@ struct Fidelity {
   std::vector<LabelFidelity> per_label;          ///< the image's labels with voxels, ascending
   std::vector<InterfaceFidelity> per_interface;  ///< ascending
   SurfaceFidelity outer;                         ///< all labels together against background
+  /// The paper's distance of the same: vertices on facets towards background or the outside, centres of
+  /// voxels of a label with a face neighbour of background.
+  std::optional<PointSetDistance> outer_points;
 };
 
 /// Time n log n in voxel faces and facets; memory that of the surfaces of one label beside the image's
@@ -60,8 +63,8 @@ Fidelity fidelity(const MeshView& view, const LabelImage& image, const Surface& 
 /// smooth_surface_hausdorff_mm and so on; dice_min, volume_error_percent_max (largest without its sign);
 /// missing_labels, unknown_labels; surface_tolerance_mm. Over the labels these are maxima, dice_min the
 /// minimum, means pooled. per_label, per_interface (labels: [a, b]) and outer_surface hold the same figures
-/// of one surface, its areas, and voxel_surface and smooth_surface with each direction's area-weighted
-/// figures.
+/// of one surface, its areas (and of a label or outer_surface the paper's distances), and voxel_surface and
+/// smooth_surface with each direction's area-weighted figures.
 nlohmann::json to_json(const Fidelity& fidelity, const FidelityOptions& options);
 
 }  // namespace cbc3d::metrics

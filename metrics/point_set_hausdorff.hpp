@@ -1,6 +1,7 @@
 // The paper's fidelity: Hausdorff distance between two point sets.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace cbc3d::metrics {
 struct PointSetDistance {
   double image_to_mesh_mm;  ///< largest distance of a boundary voxel centre to its nearest surface vertex
   double mesh_to_image_mm;  ///< largest distance of a surface vertex to its nearest boundary voxel centre
+
+  [[nodiscard]] double hausdorff_mm() const { return std::max(image_to_mesh_mm, mesh_to_image_mm); }
 };
 
 /// Between the centres of a material's boundary voxels and the vertices on the surface of its sub-mesh,

@@ -46,9 +46,7 @@ ShapeAt shape_at(const SignedDistance& shape, const Vec3& p, double step) {
   return result;
 }
 
-struct OutwardTriangle {
-  std::array<Vec3, 3> p;
-};
+}  // namespace
 
 std::vector<OutwardTriangle> outward_triangles(const MeshView& view, const Surface& surface,
                                                std::uint32_t label) {
@@ -65,6 +63,8 @@ std::vector<OutwardTriangle> outward_triangles(const MeshView& view, const Surfa
   return result;
 }
 
+namespace {
+
 enum Sum { kArea, kShapeArea, kAngle, kDistance, kSums };
 
 struct Largest {
@@ -73,7 +73,7 @@ struct Largest {
 
 void add_triangle(const OutwardTriangle& triangle, const SignedDistance& shape, double step,
                   std::vector<double>& sums, Largest& largest) {
-  const auto& [a, b, c] = triangle.p;
+  const auto& [a, b, c] = triangle;
   const Vec3 area_vector = 0.5 * (b - a).cross(c - a);
   const double area = area_vector.norm();
   if (!(area > 0)) {
@@ -93,12 +93,14 @@ void add_triangle(const OutwardTriangle& triangle, const SignedDistance& shape, 
   }
 }
 
-ShapeDeviation deviation(const std::vector<OutwardTriangle>& triangles, const SignedDistance& shape,
-                         double step) {
+}  // namespace
+
+ShapeDeviation shape_deviation(const std::vector<OutwardTriangle>& triangles, const SignedDistance& shape,
+                               double step_mm) {
   std::vector<Largest> largest(triangles.size());
   const auto sums =
       ordered_sums<double>(triangles.size(), kSums, [&](std::size_t t, std::vector<double>& sum) {
-        add_triangle(triangles[t], shape, step, sum, largest[t]);
+        add_triangle(triangles[t], shape, step_mm, sum, largest[t]);
       });
   ShapeDeviation result;
   result.mesh_area_mm2 = sums[kArea];
@@ -117,14 +119,12 @@ ShapeDeviation deviation(const std::vector<OutwardTriangle>& triangles, const Si
   return result;
 }
 
-}  // namespace
-
 std::vector<ShapeDeviation> shape_deviations(const MeshView& view, const Surface& surface,
                                              const std::map<Label, SignedDistance>& shapes, double step_mm) {
   std::vector<ShapeDeviation> result;
   for (const auto& [label, shape] : shapes) {
     if (const auto index = view.find_label(label)) {
-      result.push_back(deviation(outward_triangles(view, surface, *index), shape, step_mm));
+      result.push_back(shape_deviation(outward_triangles(view, surface, *index), shape, step_mm));
       result.back().label = label;
     }
   }

@@ -1,6 +1,7 @@
 // A mesh against a smooth shape that is known exactly.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -30,6 +31,17 @@ struct ShapeDeviation {
   /// 100 (mesh area / shape area - 1): 0 for a perfect surface, 50 for the voxel faces of a large ball.
   double area_excess_percent = 0;
 };
+
+/// A triangle, counter-clockwise seen from outside the label; physical LPS mm.
+using OutwardTriangle = std::array<Vec3, 3>;
+
+/// Those of the surface of the label at an index of MeshView::labels().
+std::vector<OutwardTriangle> outward_triangles(const MeshView& view, const Surface& surface,
+                                               std::uint32_t label);
+
+/// Of any triangles; the label is left 0. `step_mm` as below.
+ShapeDeviation shape_deviation(const std::vector<OutwardTriangle>& triangles, const SignedDistance& shape,
+                               double step_mm = 1e-3);
 
 /// One entry for each label of `shapes` that the mesh has, ascending. `step_mm`: of the finite differences;
 /// small against the radii of curvature, large against rounding.

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 
 #include "reports/markup.hpp"
+#include "reports/table.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -133,8 +135,10 @@ std::string axes(const Chart& chart, const Scale& scale) {
          text((kLeft + kWidth - kRight) / 2, kPlotBottom + (tilt ? 62 : 38), chart.x_title, "middle", 14);
 }
 
-/// Names of the series in rows beneath the plot, and the note. `height` grows by what they need.
-std::string legend(const Chart& chart, double& height) {
+/// Names of the series in rows beneath the plot, each after its sample(number, x, y), and the note. `height`
+/// grows by what they need.
+template <class Sample>
+std::string legend(const Chart& chart, double& height, const Sample& sample) {
   std::string svg;
   double x = kLeft;
   double y = kPlotBottom + 86;
@@ -144,8 +148,7 @@ std::string legend(const Chart& chart, double& height) {
       x = kLeft;
       y += kLegendLine;
     }
-    const std::string colour = kColours[s % kColours.size()];
-    svg += line(x, y - 4, x + 18, y - 4, colour, 5, chart.series[s].dashed);
+    svg += sample(s, x, y - 4);
     svg += text(x + 23, y, chart.series[s].name, "start", 13);
     x += width;
   }
@@ -229,14 +232,137 @@ std::string points(const Chart& chart, const Scale& scale) {
   return svg;
 }
 
-std::string document(const Chart& chart, const Scale& scale, const std::string& marks) {
-  double height = kHeight;
-  const std::string below = legend(chart, height);
+/// `inner`: axes and marks; `below`: the legend.
+std::string document(const std::string& title, double height, const std::string& inner,
+                     const std::string& below) {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + " " + number(height) +
          "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
-         "\" font-family=\"sans-serif\" fill=\"#222\" role=\"img\"><title>" + markup_text(chart.title) +
-         "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + axes(chart, scale) + marks +
-         below + "</svg>\n";
+         "\" font-family=\"sans-serif\" fill=\"#222\" role=\"img\"><title>" + markup_text(title) +
+         "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + inner + below + "</svg>\n";
+}
+
+std::string document(const Chart& chart, const Scale& scale, const std::string& marks) {
+  double height = kHeight;
+  const std::string below = legend(chart, height, [&](std::size_t s, double x, double y) {
+    return line(x, y, x + 18, y, kColours[s % kColours.size()], 5, chart.series[s].dashed);
+  });
+  return document(chart.title, height, axes(chart, scale) + marks, below);
+}
+
+/// One axis of a plane: from values to the share of its length.
+class Axis {
+ public:
+  Axis(std::vector<double> values, bool logarithmic, std::optional<double> limit)
+      : logarithmic_(logarithmic) {
+    if (limit) {
+      values.push_back(kRoom * *limit);
+      values.push_back(*limit);
+    }
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    ticks_ = logarithmic_ ? steps_of_125(*lowest, *highest) : axis_ticks(*highest);
+  }
+
+  [[nodiscard]] double share(double value) const {
+    const auto at = [this](double v) { return logarithmic_ ? std::log10(v) : v; };
+    return (at(value) - at(ticks_.front())) / (at(ticks_.back()) - at(ticks_.front()));
+  }
+  [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
+
+ private:
+  static constexpr double kRoom = 1.2;  ///< beyond a limit, to show that it is one
+
+  /// 1, 2, 5, 10, ... from at most `lowest` to at least `highest`, only powers of ten when these are many.
+  static std::vector<double> steps_of_125(double lowest, double highest) {
+    constexpr std::size_t kMostTicks = 8;
+    std::vector<double> steps, powers;
+    const int first = static_cast<int>(std::floor(std::log10(lowest)));
+    for (int power = first; powers.size() < 2 || powers.back() < highest; ++power) {
+      powers.push_back(std::pow(10.0, power));
+      for (const double factor : {1.0, 2.0, 5.0}) {
+        steps.push_back(factor * powers.back());
+      }
+    }
+    while (steps.size() > 2 && steps[1] <= lowest) {
+      steps.erase(steps.begin());
+    }
+    while (steps.size() > 2 && steps[steps.size() - 2] >= highest) {
+      steps.pop_back();
+    }
+    return steps.size() > kMostTicks ? powers : steps;
+  }
+
+  bool logarithmic_;
+  std::vector<double> ticks_;
+};
+
+/// Where a plane's values lie in the picture.
+struct Plane {
+  Axis x_axis, y_axis;
+
+  [[nodiscard]] double x(double value) const {
+    return kLeft + x_axis.share(value) * (kWidth - kRight - kLeft);
+  }
+  [[nodiscard]] double y(double value) const {
+    return kPlotBottom - y_axis.share(value) * (kPlotBottom - kTop);
+  }
+};
+
+std::string plane_axes(const Scatter& scatter, const Plane& plane) {
+  std::string svg = text(kWidth / 2, 22, scatter.title, "middle", 16);
+  for (const double tick : plane.y_axis.ticks()) {
+    const std::string name = tick < 1000 ? tick_text(tick) : format_number(tick, 0);
+    svg += line(kLeft, plane.y(tick), kWidth - kRight, plane.y(tick), "#d8d8d8");
+    svg += text(kLeft - 6, plane.y(tick) + 4, name, "end", 12);
+  }
+  for (const double tick : plane.x_axis.ticks()) {
+    svg += line(plane.x(tick), kTop, plane.x(tick), kPlotBottom, "#d8d8d8");
+    svg += text(plane.x(tick), kPlotBottom + 17, tick_text(tick), "middle", 13);
+  }
+  svg += line(kLeft, kPlotBottom, kWidth - kRight, kPlotBottom, "#333");
+  svg += line(kLeft, kTop, kLeft, kPlotBottom, "#333");
+  if (scatter.x_limit) {
+    svg += line(plane.x(*scatter.x_limit), kTop, plane.x(*scatter.x_limit), kPlotBottom, "#555", 1.5, true);
+  }
+  if (scatter.y_limit) {
+    svg +=
+        line(kLeft, plane.y(*scatter.y_limit), kWidth - kRight, plane.y(*scatter.y_limit), "#555", 1.5, true);
+  }
+  return svg + text(14, (kTop + kPlotBottom) / 2, scatter.y_title, "middle", 14, -90) +
+         text((kLeft + kWidth - kRight) / 2, kPlotBottom + 40, scatter.x_title, "middle", 14);
+}
+
+/// A point of the `series`-th colour and shape, with what it is as its tip.
+std::string point_mark(std::size_t series, double x, double y, const std::string& tip) {
+  static const std::array<std::vector<std::pair<double, double>>, 4> kShapes{
+      std::vector<std::pair<double, double>>{},     // a circle
+      {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}},         // a square
+      {{0, -7}, {6.5, 5}, {-6.5, 5}},               // a triangle
+      {{0, -7.5}, {7.5, 0}, {0, 7.5}, {-7.5, 0}}};  // a diamond
+  const std::string look =
+      attributes({{"fill", kColours[series % kColours.size()]}, {"stroke", "#fff"}, {"stroke-width", "1"}});
+  const auto& shape = kShapes[series % kShapes.size()];
+  const std::string title = "><title>" + markup_text(tip) + "</title></";
+  if (shape.empty()) {
+    return "<circle" + attributes({{"cx", number(x)}, {"cy", number(y)}, {"r", "6"}}) + look + title +
+           "circle>\n";
+  }
+  std::string corners;
+  for (const auto& [dx, dy] : shape) {
+    corners += (corners.empty() ? "" : " ") + number(x + dx) + "," + number(y + dy);
+  }
+  return "<polygon" + attributes({{"points", corners}}) + look + title + "polygon>\n";
+}
+
+/// The axes that hold all points. At least one point there is.
+Plane plane_of(const Scatter& scatter) {
+  std::vector<double> xs, ys;
+  for (const PointSeries& series : scatter.series) {
+    for (const auto& [x, y] : series.points) {
+      xs.push_back(x);
+      ys.push_back(y);
+    }
+  }
+  return {Axis(xs, scatter.logarithmic_x, scatter.x_limit), Axis(ys, scatter.logarithmic_y, scatter.y_limit)};
 }
 
 }  // namespace
@@ -269,6 +395,25 @@ std::string bar_chart(const Chart& chart) {
 std::string line_chart(const Chart& chart) {
   const Scale scale(chart);
   return document(chart, scale, points(chart, scale));
+}
+
+std::string scatter_chart(const Scatter& scatter) {
+  const Plane plane = plane_of(scatter);
+  Chart names;
+  names.note = scatter.note;
+  std::string inner = plane_axes(scatter, plane);
+  for (std::size_t s = 0; s < scatter.series.size(); ++s) {
+    const PointSeries& series = scatter.series[s];
+    names.series.push_back({series.name, {}, {}, false});
+    for (const auto& [x, y] : series.points) {
+      inner += point_mark(s, plane.x(x), plane.y(y), series.name + ": " + tick_text(x) + ", " + tick_text(y));
+    }
+  }
+  double height = kHeight;
+  const std::string below = legend(names, height, [&](std::size_t s, double x, double y) {
+    return point_mark(s, x + 12, y, scatter.series[s].name);
+  });
+  return document(scatter.title, height, inner, below);
 }
 
 }  // namespace cbc3d::reports

@@ -1,7 +1,9 @@
-// Charts as SVG: bars in groups, and lines with error bars.
+// Charts as SVG: bars in groups, lines with error bars, and points in a plane.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cbc3d::reports {
@@ -28,6 +30,25 @@ struct Chart {
 std::string bar_chart(const Chart& chart);
 /// As above, with points joined by lines instead of bars.
 std::string line_chart(const Chart& chart);
+
+/// Points of one name.
+struct PointSeries {
+  std::string name;
+  std::vector<std::pair<double, double>> points;
+};
+
+/// Points in the plane of two figures.
+struct Scatter {
+  std::string title;
+  std::string x_title, y_title;
+  std::vector<PointSeries> series;
+  bool logarithmic_x = false, logarithmic_y = false;  ///< then values must be > 0
+  std::optional<double> x_limit, y_limit;             ///< dashed lines there
+  std::string note;                                   ///< small, beneath
+};
+
+/// As the others; every series has its own colour and shape.
+std::string scatter_chart(const Scatter& scatter);
 
 /// Ticks that a person would choose, from 0 or below to at least `highest`.
 std::vector<double> axis_ticks(double highest);

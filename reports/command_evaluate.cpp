@@ -1,6 +1,7 @@
 // cbc3d-bench evaluate: any mesh against any segmentation.
 #include <iostream>
 
+#include "cases/phantoms/registry.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
@@ -15,6 +16,10 @@ namespace {
 
 struct EvaluateCommandOptions {
   std::string mesh, image, json;
+  std::string phantom;
+  std::vector<int> phantom_size;
+  std::vector<double> phantom_spacing_mm;
+  std::uint64_t phantom_seed = 0;
   int threads = 0;
   bool quiet = false;
   metrics::EvaluateOptions metrics;
@@ -39,25 +44,50 @@ nlohmann::json image_section(const LabelImage& image) {
           {"labels", std::vector<Label>(image.labels.begin() + 1, image.labels.end())}};
 }
 
+/// The true shape of the labels when the image is a phantom; empty when it is none or its shape is not known.
+metrics::LabelShapes shapes_of(const EvaluateCommandOptions& options) {
+  if (options.phantom.empty()) {
+    return {};
+  }
+  cases::Phantom phantom{options.phantom, {0, 0, 0}, {1, 1, 1}, options.phantom_seed, ""};
+  if (const cases::PhantomKind* kind = cases::find_phantom(options.phantom)) {
+    phantom.size = kind->size;
+    phantom.spacing_mm = kind->spacing_mm;
+  }
+  if (const auto& size = options.phantom_size; !size.empty()) {
+    phantom.size = {size[0], size[1], size[2]};
+  }
+  if (const auto& spacing_mm = options.phantom_spacing_mm; !spacing_mm.empty()) {
+    phantom.spacing_mm = {spacing_mm[0], spacing_mm[1], spacing_mm[2]};
+  }
+  return cases::phantom_signed_distance(phantom);
+}
+
 int evaluate(const EvaluateCommandOptions& options) {
   if (!options.json.empty()) {
     require_writable(options.json);
   }
   set_thread_count(options.threads);
+  metrics::EvaluateOptions judged = options.metrics;
+  judged.shapes = shapes_of(options);
   Progress progress(options.quiet);
   progress.step("reading", 0);
   const Mesh mesh = read_mesh(options.mesh);
   const LabelImage image = read_label_image(options.image);
-  nlohmann::json evaluation = metrics::evaluate(mesh, image, options.metrics, progress);
+  nlohmann::json evaluation = metrics::evaluate(mesh, image, judged, progress);
   evaluation["image"] = image_section(image);
+  constexpr double kMegabytesPerByte = 1e-6;
+  evaluation["evaluation_peak_mb"] = kMegabytesPerByte * static_cast<double>(process_peak_rss_bytes());
   progress.done();
   if (!options.json.empty()) {
     write_text_file(options.json,
                     evaluation.dump(evaluation.at("quality").at("per_label").size() > 1000 ? -1 : 2) + "\n");
   }
   if (!options.quiet) {
-    for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
-      print_section(evaluation, section);
+    for (const char* section : {"counts", "quality", "fidelity", "topology", "one_look", "shape"}) {
+      if (evaluation.contains(section)) {
+        print_section(evaluation, section);
+      }
     }
     std::cout << "faults: " << evaluation.at("faults").size() << '\n';
     for (const nlohmann::json& fault : evaluation.at("faults")) {
@@ -65,6 +95,24 @@ int evaluate(const EvaluateCommandOptions& options) {
     }
   }
   return kExitSuccess;
+}
+
+void add_phantom_options(CLI::App& parser, const std::shared_ptr<EvaluateCommandOptions>& options) {
+  parser.add_option(
+      "--phantom", options->phantom,
+      "the image is this phantom: compare with its true shape too, where that is known; one of " +
+          cases::phantom_names());
+  parser
+      .add_option("--phantom-size", options->phantom_size,
+                  "its voxels along each axis, X,Y,Z; default: the generator's own")
+      ->delimiter(',')
+      ->expected(3);
+  parser
+      .add_option("--phantom-spacing", options->phantom_spacing_mm,
+                  "its voxel spacing, mm, X,Y,Z; default: the generator's own")
+      ->delimiter(',')
+      ->expected(3);
+  parser.add_option("--phantom-seed", options->phantom_seed, "its seed")->capture_default_str();
 }
 
 }  // namespace
@@ -90,6 +138,7 @@ Command add_evaluate_command(CLI::App& app) {
       ->add_flag("--smooth,!--no-smooth", options->metrics.smooth,
                  "distances to the smooth surfaces between the labels too")
       ->default_str("on");
+  add_phantom_options(*parser, options);
   parser->add_option("--threads", options->threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -76,6 +76,18 @@ Chart histogram_of(const std::string& case_name, const Columns& columns) {
   return chart;
 }
 
+/// Median of a figure over the good runs; NaN without any.
+double median_of(const std::vector<const Json*>& runs, const std::vector<std::string>& path) {
+  std::vector<double> values;
+  for (const Json* run : runs) {
+    const Json value = figure(*run, path);
+    if (is_ok(*run) && value.is_number()) {
+      values.push_back(value.get<double>());
+    }
+  }
+  return values.empty() ? kNone : median(values);
+}
+
 /// A value of every case and column: the median of its runs.
 Chart comparison(const std::vector<Json>& results, const Columns& columns,
                  const std::vector<std::string>& path) {
@@ -84,14 +96,7 @@ Chart comparison(const std::vector<Json>& results, const Columns& columns,
   for (const std::string& column : columns.names()) {
     Series series{column, {}, {}, false};
     for (const std::string& case_name : chart.categories) {
-      std::vector<double> values;
-      for (const Json* run : columns.runs(case_name, column)) {
-        const Json value = figure(*run, path);
-        if (is_ok(*run) && value.is_number()) {
-          values.push_back(value.get<double>());
-        }
-      }
-      series.values.push_back(values.empty() ? kNone : median(values));
+      series.values.push_back(median_of(columns.runs(case_name, column), path));
     }
     const bool any =
         std::any_of(series.values.begin(), series.values.end(), [](double v) { return std::isfinite(v); });
@@ -100,6 +105,55 @@ Chart comparison(const std::vector<Json>& results, const Columns& columns,
     }
   }
   return chart;
+}
+
+/// A column's name and, as a distance says nothing of them, how many labels its mesh lacks.
+std::string name_with_missing(const std::string& column, const std::vector<const Json*>& runs) {
+  const Json* run = first_good(runs);
+  const Json missing = run == nullptr ? Json() : figure(*run, {"one_look", "missing_labels"});
+  return missing.is_array() && !missing.empty()
+             ? column + " (" + std::to_string(missing.size()) + " labels missing)"
+             : column;
+}
+
+/// Every mesher of a case in the plane of distance and another figure of one_look.
+Scatter trade_off(const std::string& case_name, const Columns& columns, const std::string& key,
+                  bool logarithmic_y) {
+  constexpr double kLimitDiagonals = 1.1;
+  Scatter scatter;
+  scatter.x_title = "Hausdorff distance (the paper's), worst label (voxel diagonals)";
+  scatter.logarithmic_x = true;
+  scatter.logarithmic_y = logarithmic_y;
+  scatter.x_limit = kLimitDiagonals;
+  for (const std::string& column : columns.names()) {
+    const std::vector<const Json*> runs = columns.runs(case_name, column);
+    const double x = median_of(runs, {"one_look", "hausdorff_diagonals"});
+    const double y = median_of(runs, {"one_look", key});
+    if (x > 0 && (y > 0 || (!logarithmic_y && y == 0))) {
+      scatter.series.push_back({name_with_missing(column, runs), {{x, y}}});
+    }
+  }
+  return scatter;
+}
+
+/// The two planes of a case; none where no mesh has a distance.
+void add_trade_offs(const std::string& case_name, const Columns& columns, std::vector<Figure>& figures) {
+  constexpr double kLimitDeg = 20;
+  Scatter angle = trade_off(case_name, columns, "min_dihedral_deg", false);
+  angle.title = case_name + ": distance and smallest dihedral angle";
+  angle.y_title = "min dihedral angle (deg)";
+  angle.y_limit = kLimitDeg;
+  angle.note = "Better is up and left; dashed: 1.1 voxel diagonals, 20 degrees.";
+  Scatter count = trade_off(case_name, columns, "elements", true);
+  count.title = case_name + ": distance and number of elements";
+  count.y_title = "elements";
+  count.note = "Better is down and left; dashed: 1.1 voxel diagonals.";
+  for (const auto& [name, scatter] : {std::pair("angle", &angle), std::pair("elements", &count)}) {
+    if (!scatter->series.empty()) {
+      figures.push_back(
+          {"distance-" + std::string(name) + "-" + case_name, scatter->title, scatter_chart(*scatter)});
+    }
+  }
 }
 
 struct ComparisonPlan {
@@ -139,6 +193,9 @@ std::vector<Figure> result_figures(const std::vector<Json>& results) {
     if (!chart.series.empty()) {
       figures.push_back({plan.name, chart.title, bar_chart(chart)});
     }
+  }
+  for (const std::string& case_name : case_names(results)) {
+    add_trade_offs(case_name, columns, figures);
   }
   for (const std::string& case_name : case_names(results)) {
     const Chart chart = histogram_of(case_name, columns);

@@ -18,7 +18,8 @@ struct Figure {
 };
 
 /// For every case the distribution of the dihedral angles in steps of 5 degrees with all meshers; over the
-/// cases the Hausdorff distance, the surface distance and the time.
+/// cases the Hausdorff distance, the surface distance and the time; for every case all meshers in the planes
+/// of distance against smallest dihedral angle and against element count.
 std::vector<Figure> result_figures(const std::vector<Json>& results);
 
 /// Writes each figure as NAME.svg into `folder`, which is made, and as NAME.png where rsvg-convert is there;

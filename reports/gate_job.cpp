@@ -144,6 +144,7 @@ const std::vector<GateFigure>& gate_figures() {
       {"topology.conforming", "conforming", "", Worse::lower, "exact"},
       {"topology.non_manifold_edges", "non-manifold edges", "", Worse::higher, "exact"},
       {"topology.non_manifold_vertices", "non-manifold vertices", "", Worse::higher, "exact"},
+      {"topology.self_intersections", "self-intersections", "", Worse::higher, "exact"},
       {"peak_rss_bytes", "peak memory", "bytes", Worse::higher, "memory"},
       {"time_ratio", "CPU time over the reference work's", "", Worse::higher, "time"}};
   return figures;

@@ -84,7 +84,8 @@ std::string table_html(const Table& table) {
     html += line == 0 ? "<thead><tr>" : "<tr>";
     for (std::size_t column = 0; column < rows[line].size(); ++column) {
       const std::string text = markup_text(rows[line][column]);
-      const bool failed = line > 0 && rows[line][column].rfind("- [", 0) == 0;
+      const bool failed = line > 0 && (rows[line][column].rfind("- [", 0) == 0 ||
+                                       (column >= 2 && table.rows[line - 1].cells[column - 2].missed));
       html +=
           line == 0 ? "<th>" + text + "</th>" : (failed ? "<td class=\"failed\">" : "<td>") + text + "</td>";
     }

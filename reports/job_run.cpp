@@ -186,6 +186,22 @@ Json seed_of(const Job& job) {
   return nullptr;
 }
 
+/// Options of `evaluate` that tell it which phantom the image is, so that it knows the true shape.
+std::vector<std::string> phantom_options(const cases::Case& subject) {
+  if (!subject.phantom || subject.derive.any()) {
+    return {};
+  }
+  const cases::Phantom& phantom = *subject.phantom;
+  const Vec3& s = phantom.spacing_mm;
+  const auto joined = [](const nlohmann::json& list) {  // JSON writes as many digits as it takes
+    return list[0].dump() + "," + list[1].dump() + "," + list[2].dump();
+  };
+  return {"--phantom",         phantom.name,
+          "--phantom-size",    joined(phantom.size),
+          "--phantom-spacing", joined(std::vector<double>{s.x, s.y, s.z}),
+          "--phantom-seed",    std::to_string(phantom.seed)};
+}
+
 /// What a mesher calls its version: by its report, or the first line that its version command prints.
 Json version_of(const baselines::Adapter& mesher, const nlohmann::json& report) {
   if (mesher.version_command.empty()) {
@@ -235,6 +251,8 @@ class Children {
   nlohmann::json evaluate(const fs::path& image, Json& result) const {
     std::vector<std::string> argv = bench_.evaluate_command;
     argv.insert(argv.end(), {files_.mesh, image, "--json", files_.evaluation, "--quiet"});
+    const std::vector<std::string> phantom = phantom_options(*job_.subject);
+    argv.insert(argv.end(), phantom.begin(), phantom.end());
     const ChildResult child = start(argv, 0);
     nlohmann::json evaluation = read_json(files_.evaluation);
     std::error_code error;

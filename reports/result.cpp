@@ -46,8 +46,13 @@ Json empty_result() {
       {"min_dihedral_deg", "max_dihedral_deg", "dihedral_histogram_5deg", "min_scaled_jacobian", "inverted"});
   result["fidelity"] = nulls({"hausdorff_mm", "image_to_mesh_mm", "mesh_to_image_mm", "surface_hausdorff_mm",
                               "mean_distance_mm", "hd95_mm", "dice_min", "missing_labels", "per_label"});
-  result["topology"] =
-      nulls({"conforming", "non_manifold_edges", "non_manifold_vertices", "components", "per_label"});
+  result["topology"] = nulls({"conforming", "non_manifold_edges", "non_manifold_vertices",
+                              "self_intersections", "components", "per_label"});
+  result["one_look"] =
+      nulls({"elements", "min_dihedral_deg", "hausdorff_diagonals", "union_hausdorff_diagonals",
+             "volume_error_percent", "missing_labels", "self_intersections"});
+  result["faults"] = nullptr;
+  result["evaluation_peak_mb"] = nullptr;
   result["time_s"] = nulls({"mesh", "cpu", "stages"});
   result["peak_rss_bytes"] = nullptr;
   result["image"] = nulls({"size", "spacing_mm", "labels"});
@@ -57,12 +62,17 @@ Json empty_result() {
 }
 
 void merge_evaluation(Json& result, const nlohmann::json& evaluation) {
-  for (const char* section : {"counts", "quality", "fidelity", "topology", "image"}) {
+  for (const char* section : {"counts", "quality", "fidelity", "topology", "one_look", "shape", "image"}) {
     if (!evaluation.contains(section) || !evaluation[section].is_object()) {
       continue;
     }
     for (const auto& [key, value] : evaluation[section].items()) {
       result[section][key] = value;
+    }
+  }
+  for (const char* key : {"faults", "evaluation_peak_mb"}) {
+    if (evaluation.contains(key)) {
+      result[key] = evaluation[key];
     }
   }
 }

@@ -18,8 +18,8 @@ inline constexpr const char* kStatuses[] = {"ok",      "failed",     "crashed", 
 /// A result line with every key there and every figure null.
 Json empty_result();
 
-/// Puts the keys counts, quality, fidelity, topology and image of an evaluation into a result line; keys that
-/// the evaluation lacks stay null.
+/// Puts the keys counts, quality, fidelity, topology, one_look, shape, image, faults and evaluation_peak_mb
+/// of an evaluation into a result line; keys that the evaluation lacks stay null, and shape is absent.
 void merge_evaluation(Json& result, const nlohmann::json& evaluation);
 
 /// Appends one line with a single write and waits until it is on the disk, so that a reader, or a run that

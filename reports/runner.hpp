@@ -23,7 +23,8 @@ struct Bench {
   std::vector<cases::Case> cases;
   std::vector<baselines::Adapter> meshers;
   std::filesystem::path bin_dir;              ///< folder of the mesher executables
-  std::vector<std::string> evaluate_command;  ///< "MESH IMAGE --json FILE --threads N --quiet" is appended
+  std::vector<std::string> evaluate_command;  ///< "MESH IMAGE --json FILE --quiet" is appended, and
+                                              ///< for a phantom its name and arguments
   std::function<cases::ResolvedImage(const cases::Case&)> resolve_image;
 };
 

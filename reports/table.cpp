@@ -37,6 +37,8 @@ std::string cell_text(const Cell& cell, int row_decimals) {
   if (cell.value && cell.runs > 1 && lowest != highest) {
     text += " [" + lowest + "-" + highest + "]";
   }
+  text += cell.missed ? " missed" : "";
+  text += cell.where.empty() ? "" : " (" + cell.where + ")";
   if (cell.paper) {
     text += " (paper: " + format_number(*cell.paper, decimals) + ")";
   }
@@ -80,6 +82,10 @@ Json to_json(const Table& table) {
       entry["reason"] = cell.reason;
       if (!cell.text.empty()) {
         entry["text"] = cell.text;
+      }
+      if (cell.missed || !cell.where.empty()) {
+        entry["missed"] = cell.missed;
+        entry["where"] = cell.where;
       }
       cells[table.columns[column]] = std::move(entry);
     }

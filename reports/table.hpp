@@ -19,6 +19,8 @@ struct Cell {
   std::string reason;           ///< why the figure, or some run of it, is not there; or how it was taken
   std::string text;             ///< shown instead of the figure; empty: the figure is
   int decimals = -1;            ///< of this cell; -1: those of its row
+  std::string where = {};       ///< where a figure is the worst: "label 4"
+  bool missed = false;          ///< the figure is beyond what it should be
 };
 
 /// A cell of one number without runs, or of a text.
@@ -44,8 +46,8 @@ struct Table {
 /// A number with that many decimals and commas between the thousands.
 std::string format_number(double value, int decimals);
 
-/// "1,234 [1,200-1,300] (paper: 1,100)"; "-" without a value. The range is there when the runs differ in what
-/// is shown.
+/// "1,234 [1,200-1,300] (paper: 1,100)", "1.5 missed (label 4)"; "-" without a value. The range is there when
+/// the runs differ in what is shown.
 std::string cell_text(const Cell& cell, int decimals);
 
 /// The reasons of a table, each once, as "CASE, MESHER: REASON", numbered from 1 by their place.

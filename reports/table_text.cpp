@@ -81,6 +81,11 @@ std::vector<CsvColumn> csv_columns(const Table& table) {
       columns.push_back({name + " (paper)", column,
                          [](const Cell& c) { return c.paper ? csv_number(*c.paper) : std::string(); }});
     }
+    if (any([](const Cell& c) { return c.missed || !c.where.empty(); })) {
+      columns.push_back(
+          {name + " missed", column, [](const Cell& c) { return std::string(c.missed ? "missed" : ""); }});
+      columns.push_back({name + " where", column, [](const Cell& c) { return c.where; }});
+    }
     if (any([](const Cell& c) { return !c.reason.empty(); })) {
       columns.push_back({name + " reason", column, [](const Cell& c) { return c.reason; }});
     }

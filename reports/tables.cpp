@@ -9,33 +9,17 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "reports/columns.hpp"
-#include "reports/statistics.hpp"
+#include "reports/measures.hpp"
+#include "reports/target_table.hpp"
 
 namespace cbc3d::reports {
 namespace {
-
-using Figure = std::function<std::optional<double>(const Json& result)>;
-
-/// A row of a table for every case.
-struct Measure {
-  std::string name;  ///< with its unit
-  int decimals;
-  std::string paper_key;  ///< of the case's paper figures; empty: the paper has none
-  Figure figure;
-};
 
 struct TablePlan {
   std::string name;
   std::string title;
   std::vector<Measure> measures;
 };
-
-Figure at(std::vector<std::string> path, double factor = 1) {
-  return [path = std::move(path), factor](const Json& result) -> std::optional<double> {
-    const Json value = figure(result, path);
-    return value.is_number() ? std::optional(factor * value.get<double>()) : std::nullopt;
-  };
-}
 
 std::optional<double> missing_label_count(const Json& result) {
   const Json missing = figure(result, {"fidelity", "missing_labels"});
@@ -51,7 +35,8 @@ std::vector<TablePlan> table_plans() {
        {{"min dihedral angle (deg)", 2, "min_dihedral_deg", at({"quality", "min_dihedral_deg"})},
         {"max dihedral angle (deg)", 2, "max_dihedral_deg", at({"quality", "max_dihedral_deg"})},
         {"min scaled Jacobian", 4, "", at({"quality", "min_scaled_jacobian"})},
-        {"inverted elements", 0, "", at({"quality", "inverted"})}}},
+        {"inverted elements", 0, "", at({"quality", "inverted"})},
+        {"self-intersections", 0, "", at({"topology", "self_intersections"})}}},
       {"fidelity",
        "Fidelity (HD: the paper's Hausdorff distance of surface vertices and boundary voxels)",
        {{"HD (mm)", 2, "hausdorff_mm", at({"fidelity", "hausdorff_mm"})},
@@ -83,48 +68,6 @@ bool has_mixed_mesh(const std::vector<Json>& results) {
   return std::any_of(results.begin(), results.end(), [&](const Json& result) {
     return count(result, "pyramids") + count(result, "wedges") + count(result, "hexes") > 0;
   });
-}
-
-std::string text_of(const Json& result, const char* key) {
-  return result.value(key, "");
-}
-
-/// Status and reason of a line that is not ok.
-std::string failure_of(const Json& result) {
-  const std::string status = text_of(result, "status");
-  const std::string reason = text_of(result, "reason");
-  return reason.empty() ? status : status + ": " + reason;
-}
-
-/// `runs`: the lines of one case and column.
-Cell cell_of(const std::vector<const Json*>& runs, const Measure& measure) {
-  Cell cell;
-  std::vector<double> values;
-  std::size_t failures = 0;
-  for (const Json* run : runs) {
-    if (text_of(*run, "status") != "ok") {
-      ++failures;
-      cell.reason = failure_of(*run);
-    } else if (const auto value = measure.figure(*run)) {
-      values.push_back(*value);
-    }
-  }
-  const bool whole_process = measure.name == "time (s)" && !runs.empty() &&
-                             figure(*runs.front(), {"time_s", "includes_files"}) == true;
-  if (runs.empty()) {
-    cell.reason = "not run";
-  } else if (failures > 0 && failures < runs.size()) {
-    cell.reason = std::to_string(failures) + " of " + std::to_string(runs.size()) + " runs " + cell.reason;
-  }
-  if (!values.empty()) {
-    cell.reason +=
-        whole_process && cell.reason.empty() ? "whole process, reading and writing files included" : "";
-    cell.value = median(values);
-    cell.lowest = *std::min_element(values.begin(), values.end());
-    cell.highest = *std::max_element(values.begin(), values.end());
-    cell.runs = static_cast<int>(values.size());
-  }
-  return cell;
 }
 
 /// The paper's Hausdorff distance after a deformation with the run's own pattern and iterations, as a case's
@@ -192,6 +135,10 @@ std::vector<Table> build_tables(const std::vector<Json>& results, const std::vec
     if (plan.name != "vertices" || has_mixed_mesh(results)) {
       tables.push_back(build_table(plan, results, cases));
     }
+  }
+  tables.push_back(target_table(results));
+  if (Table smooth = smoothness_table(results); !smooth.rows.empty()) {
+    tables.push_back(std::move(smooth));
   }
   return tables;
 }

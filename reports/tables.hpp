@@ -1,4 +1,5 @@
-// The tables of a results file: element count, element quality, fidelity, time, and vertices of mixed meshes.
+// The tables of a results file: element count, element quality, fidelity, time, vertices of mixed meshes,
+// targets and smoothness (target_table.hpp).
 #pragma once
 
 #include <filesystem>

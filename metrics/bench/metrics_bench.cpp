@@ -6,6 +6,7 @@
 #include "metrics/element_quality.hpp"
 #include "metrics/image_topology.hpp"
 #include "metrics/mesh_betti.hpp"
+#include "metrics/self_intersection.hpp"
 #include "metrics/smooth_surface.hpp"
 #include "metrics/surface_hausdorff.hpp"
 #include "metrics/tests/helpers.hpp"
@@ -83,6 +84,17 @@ void MeshBettiNumbers(benchmark::State& state) {
   report(state, mesh, image);
 }
 
+void SurfaceSelfIntersections(benchmark::State& state) {
+  const auto size = static_cast<int>(state.range(0));
+  const LabelImage image = test::empty_image({1, 1, 1}, {1, 1, 1}, {0, 1, 2});
+  const Mesh mesh = ball_mesh(size);
+  const MeshView view(mesh, image);
+  const Surface surface = extract_surface(view, sorted_facets(view));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(self_intersections(view, surface));
+  report(state, mesh, image);
+  state.counters["facets"] = static_cast<double>(surface.facets.size());
+}
+
 void ImageBettiNumbers(benchmark::State& state) {
   const LabelImage image = ball_image(static_cast<int>(state.range(0)));
   for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(image_topology(image));
@@ -123,6 +135,7 @@ BENCHMARK(Evaluate)->Apply(sizes);
 BENCHMARK(EvaluateCertified)->Apply(sizes);
 BENCHMARK(ElementQuality)->Apply(sizes);
 BENCHMARK(MeshBettiNumbers)->Apply(sizes);
+BENCHMARK(SurfaceSelfIntersections)->Apply(sizes);
 BENCHMARK(ImageBettiNumbers)->Apply(sizes);
 BENCHMARK(SmoothSurface)->Apply(sizes);
 BENCHMARK(CertifiedDistance)->Apply(sizes);

@@ -29,6 +29,7 @@ Json good_line(int repeat = 0) {
   line["fidelity"]["missing_labels"] = Json::array();
   line["fidelity"]["per_label"] = {{{"label", 1}, {"volume_error_percent", -2.0}}};
   line["topology"]["conforming"] = true;
+  line["topology"]["self_intersections"] = 0;
   line["time_s"] = {{"mesh", 1.0}, {"cpu", 1.0}, {"stages", Json::object()}, {"reference_cpu", 0.02}};
   line["peak_rss_bytes"] = 100'000'000;
   line["provenance"]["mesher_deterministic"] = true;
@@ -81,6 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"/fidelity/per_label/0/volume_error_percent", 2.5, "largest volume error"},
         Planted{"/fidelity/missing_labels", {7}, "label 7 was in the mesh and is not any more"},
         Planted{"/topology/conforming", false, "conforming was 1, is 0"},
+        Planted{"/topology/self_intersections", 1, "self-intersections was 0, is 1 (+1; allowed 0)"},
         Planted{"/peak_rss_bytes", 200'000'000, "peak memory was 100.0 MB, is 200.0 MB"},
         Planted{"/time_s/cpu", 1.5, "CPU time over the reference work's was 50, is 75"},
         Planted{"/status", "crashed", "was ok, is crashed"},
