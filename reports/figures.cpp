@@ -112,7 +112,8 @@ std::string name_with_missing(const std::string& column, const std::vector<const
   const Json* run = first_good(runs);
   const Json missing = run == nullptr ? Json() : figure(*run, {"one_look", "missing_labels"});
   return missing.is_array() && !missing.empty()
-             ? column + " (" + std::to_string(missing.size()) + " labels missing)"
+             ? column + " (" + std::to_string(missing.size()) +
+                   (missing.size() == 1 ? " label missing)" : " labels missing)")
              : column;
 }
 
