@@ -44,10 +44,32 @@ void keep_inner(std::vector<OutwardTriangle>& triangles, const ImageFrame& frame
   });
 }
 
+double area_of(const std::vector<OutwardTriangle>& triangles) {
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) {
+    area += 0.5 * (b - a).cross(c - a).norm();
+  }
+  return area;
+}
+
+// A signed distance may take long; more triangles than this, picked evenly, change no mean by much.
+constexpr std::size_t kMostTriangles = 30000;
+
 ShapeDeviation inner_deviation(std::vector<OutwardTriangle> triangles, const ImageFrame& frame,
                                const SignedDistance& shape, Label label) {
+  constexpr double kSmall = 1.5;  // voxels: triangles of voxel faces are
   keep_inner(triangles, frame);
-  ShapeDeviation result = shape_deviation(triangles, shape);
+  const double area = area_of(triangles);
+  const std::size_t count = triangles.size();
+  for (std::size_t n = 0; count > kMostTriangles && n < kMostTriangles; ++n) {
+    triangles[n] = triangles[n * count / kMostTriangles];
+  }
+  triangles.resize(std::min(count, kMostTriangles));
+  ShapeDeviation result = shape_deviation(triangles, shape, {1e-3, kSmall * frame.spacing_mm.max_coeff()});
+  if (result.mesh_area_mm2 > 0) {
+    result.shape_area_mm2 *= area / result.mesh_area_mm2;
+    result.mesh_area_mm2 = area;
+  }
   result.label = label;
   return result;
 }

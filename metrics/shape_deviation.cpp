@@ -71,7 +71,20 @@ struct Largest {
   double angle = 0, distance = 0;
 };
 
-void add_triangle(const OutwardTriangle& triangle, const SignedDistance& shape, double step,
+// What is added at a point that stands for `area` of a triangle with this unit normal.
+void add_point(const ShapeAt& there, const Vec3& normal, double area, std::vector<double>& sums,
+               Largest& largest) {
+  const double cosine = normal.dot(there.normal);
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  const double distance = std::fabs(there.distance);
+  sums[kShapeArea] += area * cosine * (1 - there.distance * there.laplacian);
+  sums[kAngle] += area * angle;
+  sums[kDistance] += area * distance;
+  largest.angle = std::max(largest.angle, angle);
+  largest.distance = std::max(largest.distance, distance);
+}
+
+void add_triangle(const OutwardTriangle& triangle, const SignedDistance& shape, const ShapeSampling& sampling,
                   std::vector<double>& sums, Largest& largest) {
   const auto& [a, b, c] = triangle;
   const Vec3 area_vector = 0.5 * (b - a).cross(c - a);
@@ -80,27 +93,29 @@ void add_triangle(const OutwardTriangle& triangle, const SignedDistance& shape, 
     return;
   }
   sums[kArea] += area;
+  const Vec3 normal = area_vector / area;
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  if (longest <= sampling.small_mm) {
+    add_point(shape_at(shape, (a + b + c) / 3, sampling.step_mm), normal, area, sums, largest);
+    for (const Vec3& corner : triangle) {
+      largest.distance = std::max(largest.distance, std::fabs(shape(corner)));
+    }
+    return;
+  }
   for (const auto& [at, weight] : kRule) {
-    const ShapeAt there = shape_at(shape, at[0] * a + at[1] * b + at[2] * c, step);
-    const double cosine = area_vector.dot(there.normal) / area;
-    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
-    const double distance = std::fabs(there.distance);
-    sums[kShapeArea] += weight * area * cosine * (1 - there.distance * there.laplacian);
-    sums[kAngle] += weight * area * angle;
-    sums[kDistance] += weight * area * distance;
-    largest.angle = std::max(largest.angle, angle);
-    largest.distance = std::max(largest.distance, distance);
+    const Vec3 p = at[0] * a + at[1] * b + at[2] * c;
+    add_point(shape_at(shape, p, sampling.step_mm), normal, weight * area, sums, largest);
   }
 }
 
 }  // namespace
 
 ShapeDeviation shape_deviation(const std::vector<OutwardTriangle>& triangles, const SignedDistance& shape,
-                               double step_mm) {
+                               const ShapeSampling& sampling) {
   std::vector<Largest> largest(triangles.size());
   const auto sums =
       ordered_sums<double>(triangles.size(), kSums, [&](std::size_t t, std::vector<double>& sum) {
-        add_triangle(triangles[t], shape, step_mm, sum, largest[t]);
+        add_triangle(triangles[t], shape, sampling, sum, largest[t]);
       });
   ShapeDeviation result;
   result.mesh_area_mm2 = sums[kArea];
@@ -124,7 +139,7 @@ std::vector<ShapeDeviation> shape_deviations(const MeshView& view, const Surface
   std::vector<ShapeDeviation> result;
   for (const auto& [label, shape] : shapes) {
     if (const auto index = view.find_label(label)) {
-      result.push_back(shape_deviation(outward_triangles(view, surface, *index), shape, step_mm));
+      result.push_back(shape_deviation(outward_triangles(view, surface, *index), shape, {step_mm, 0}));
       result.back().label = label;
     }
   }

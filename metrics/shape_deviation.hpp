@@ -39,9 +39,16 @@ using OutwardTriangle = std::array<Vec3, 3>;
 std::vector<OutwardTriangle> outward_triangles(const MeshView& view, const Surface& surface,
                                                std::uint32_t label);
 
-/// Of any triangles; the label is left 0. `step_mm` as below.
+/// How a shape is looked at.
+struct ShapeSampling {
+  double step_mm = 1e-3;  ///< of the finite differences, as below
+  double small_mm =
+      0;  ///< triangles without a longer edge count by their centroid, distances also at the corners
+};
+
+/// Of any triangles; the label is left 0.
 ShapeDeviation shape_deviation(const std::vector<OutwardTriangle>& triangles, const SignedDistance& shape,
-                               double step_mm = 1e-3);
+                               const ShapeSampling& sampling);
 
 /// One entry for each label of `shapes` that the mesh has, ascending. `step_mm`: of the finite differences;
 /// small against the radii of curvature, large against rounding.

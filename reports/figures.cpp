@@ -112,12 +112,13 @@ std::string name_with_missing(const std::string& column, const std::vector<const
   const Json* run = first_good(runs);
   const Json missing = run == nullptr ? Json() : figure(*run, {"one_look", "missing_labels"});
   return missing.is_array() && !missing.empty()
-             ? column + " (" + std::to_string(missing.size()) + " labels missing)"
+             ? column + " (" + std::to_string(missing.size()) +
+                   (missing.size() == 1 ? " label missing)" : " labels missing)")
              : column;
 }
 
-/// Every mesher of a case in the plane of distance and another figure of one_look.
-Scatter trade_off(const std::string& case_name, const Columns& columns, const std::string& key,
+/// Every mesher of a case in the plane of distance and another figure of one_look, times `unit`.
+Scatter trade_off(const std::string& case_name, const Columns& columns, const std::string& key, double unit,
                   bool logarithmic_y) {
   constexpr double kLimitDiagonals = 1.1;
   Scatter scatter;
@@ -128,7 +129,7 @@ Scatter trade_off(const std::string& case_name, const Columns& columns, const st
   for (const std::string& column : columns.names()) {
     const std::vector<const Json*> runs = columns.runs(case_name, column);
     const double x = median_of(runs, {"one_look", "hausdorff_diagonals"});
-    const double y = median_of(runs, {"one_look", key});
+    const double y = unit * median_of(runs, {"one_look", key});
     if (x > 0 && (y > 0 || (!logarithmic_y && y == 0))) {
       scatter.series.push_back({name_with_missing(column, runs), {{x, y}}});
     }
@@ -138,15 +139,15 @@ Scatter trade_off(const std::string& case_name, const Columns& columns, const st
 
 /// The two planes of a case; none where no mesh has a distance.
 void add_trade_offs(const std::string& case_name, const Columns& columns, std::vector<Figure>& figures) {
-  constexpr double kLimitDeg = 20;
-  Scatter angle = trade_off(case_name, columns, "min_dihedral_deg", false);
+  constexpr double kLimitDeg = 20, kThousands = 1e-3;
+  Scatter angle = trade_off(case_name, columns, "min_dihedral_deg", 1, false);
   angle.title = case_name + ": distance and smallest dihedral angle";
   angle.y_title = "min dihedral angle (deg)";
   angle.y_limit = kLimitDeg;
   angle.note = "Better is up and left; dashed: 1.1 voxel diagonals, 20 degrees.";
-  Scatter count = trade_off(case_name, columns, "elements", true);
+  Scatter count = trade_off(case_name, columns, "elements", kThousands, true);
   count.title = case_name + ": distance and number of elements";
-  count.y_title = "elements";
+  count.y_title = "elements (thousands)";
   count.note = "Better is down and left; dashed: 1.1 voxel diagonals.";
   for (const auto& [name, scatter] : {std::pair("angle", &angle), std::pair("elements", &count)}) {
     if (!scatter->series.empty()) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "mesher/core/error.hpp"
+#include "reports/figures.hpp"
 #include "reports/tables.hpp"
 #include "reports/tests/folder.hpp"
 
@@ -154,6 +155,68 @@ TEST(Tables, AreWrittenInTheWantedForms) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "tables" / "time.tex"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "tables" / "time.md"));
   EXPECT_THROW(write_tables(tables, folder.path() / "tables", {"pdf"}), InputError);
+}
+
+TEST(Tables, TargetsSayWhatIsMissedAndWhere) {
+  Json good = line("nidus", "cbc3d", 100), bad = line("nidus", "cgal", 100);
+  good["one_look"] = {{"min_dihedral_deg", 21.5},        {"min_dihedral_label", 4},
+                      {"image_to_mesh_diagonals", 1.1},  {"image_to_mesh_label", 4},
+                      {"missing_labels", Json::array()}, {"self_intersections", 0}};
+  bad["one_look"] = {{"min_dihedral_deg", 9.0},        {"min_dihedral_label", 7},
+                     {"volume_error_percent", -1.5},   {"volume_error_label", 2},
+                     {"missing_labels", {5, 6}},       {"self_intersections", 3},
+                     {"self_intersection_labels", {7}}};
+  const auto tables = build_tables({good, bad, failure("nidus", "tetgen", "oops")}, {});
+  const Table& targets = table(tables, "targets");
+  const auto text = [&](const std::string& figure, std::size_t column) {
+    const Row& found = row(targets, figure);
+    return cell_text(found.cells[column], found.decimals);
+  };
+  EXPECT_EQ(text("min dihedral angle (deg), at least 20", 0), "21.50 (label 4)");
+  EXPECT_EQ(text("min dihedral angle (deg), at least 20", 1), "9.00 missed (label 7)");
+  EXPECT_EQ(text("HD image to mesh (voxel diagonals), at most 1.1", 0), "1.10 (label 4)");
+  EXPECT_EQ(text("HD image to mesh (voxel diagonals), at most 1.1", 1), "-");
+  EXPECT_EQ(text("volume error, labels above 500 voxels (%), at most 1", 1), "-1.50 missed (label 2)");
+  EXPECT_EQ(text("labels above 50 voxels missing, at most 0", 0), "0");
+  EXPECT_EQ(text("labels above 50 voxels missing, at most 0", 1), "2 missed (labels 5, 6)");
+  EXPECT_EQ(text("self-intersections, at most 0", 1), "3 missed (label 7)");
+  EXPECT_EQ(text("limits missed", 0), "0");
+  EXPECT_EQ(text("limits missed", 1), "4");
+  EXPECT_EQ(text("limits missed", 2), "-");
+  EXPECT_NE(to_csv(targets).find("9,missed,label 7"), std::string::npos) << to_csv(targets);
+  EXPECT_EQ(to_json(targets)["rows"][0]["cells"]["cgal"]["missed"], true);
+}
+
+TEST(Tables, SmoothnessHasTheVoxelSurfaceBesideTheMeshers) {
+  Json known = line("ball", "cbc3d", 100);
+  known["shape"] = {{"normal_deviation_deg", 5.0},
+                    {"voxel_surface", {{"normal_deviation_deg", 45.0}}},
+                    {"per_label", Json::array({1})}};
+  const auto tables = build_tables({known, line("nidus", "cbc3d", 1)}, {});
+  const Table& smooth = table(tables, "smoothness");
+  EXPECT_EQ(smooth.columns, (std::vector<std::string>{"cbc3d", "voxel surface"}));
+  ASSERT_EQ(smooth.rows.size(), 4U);  // of the ball alone
+  EXPECT_EQ(smooth.rows[0].cells[0].value, 5);
+  EXPECT_EQ(smooth.rows[0].cells[1].value, 45);
+  EXPECT_THROW(table(build_tables({line("nidus", "cbc3d", 1)}, {}), "smoothness"), std::out_of_range);
+}
+
+TEST(Figures, EveryCaseHasAllMeshersInThePlaneOfDistanceAndAngle) {
+  Json a = line("nidus", "cbc3d", 100), b = line("nidus", "cgal", 100);
+  a["one_look"] = {
+      {"hausdorff_diagonals", 1.0}, {"min_dihedral_deg", 21.0}, {"elements", 25000}, {"missing_labels", {3}}};
+  b["one_look"] = {{"hausdorff_diagonals", 5.0}, {"min_dihedral_deg", 12.0}, {"elements", 47000}};
+  std::vector<std::string> names;
+  for (const Figure& figure : result_figures({a, b, failure("nidus", "tetgen", "oops")})) {
+    if (figure.name.rfind("distance-", 0) == 0) {
+      names.push_back(figure.name);
+      EXPECT_NE(figure.svg.find("cbc3d (1 label missing): 1,"), std::string::npos) << figure.svg;
+      EXPECT_NE(figure.svg.find("cgal: 5,"), std::string::npos);
+      EXPECT_EQ(figure.svg.find("tetgen"), std::string::npos);
+      EXPECT_EQ(figure.svg.find("nan"), std::string::npos);
+    }
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"distance-angle-nidus", "distance-elements-nidus"}));
 }
 
 TEST(Tables, NumbersHaveCommasBetweenThousands) {
