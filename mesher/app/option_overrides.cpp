@@ -162,6 +162,8 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
   app.add_flag_callback(
       "--improve", [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.improve.enabled = true; }); },
       "improve and thin out the mesh after the deformation");
+  add_override<double>(app, overrides, "--max-stray", "mm",
+                       [](MeshImageOptions& o) -> double& { return o.refine.max_stray_mm; });
   add_override<double>(app, overrides, "--goal", "improvement: no dihedral angle below this, degrees [20]",
                        [](MeshImageOptions& o) -> double& { return o.improve.min_dihedral_deg; });
   add_override<double>(app, overrides, "--decimate-dihedral", "collapses leave no angle below this, degrees [20]",

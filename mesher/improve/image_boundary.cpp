@@ -93,6 +93,32 @@ std::array<double, 8> ImageBoundary::corners(const Index3& low, MaterialId a, Ma
   return corner;
 }
 
+MaterialId ImageBoundary::material_at(const Vec3& x) const {
+  const Vec3& spacing = image_.frame.spacing_mm;
+  const Vec3 at = {x.x / spacing.x, x.y / spacing.y, x.z / spacing.z};
+  const Index3 low = {static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)),
+                      static_cast<int>(std::floor(at.z))};
+  std::array<MaterialId, 8> corner{};
+  std::array<MaterialId, 8> candidates{};
+  std::size_t count = 0;
+  for (std::size_t c = 0; c < 8; ++c) {
+    corner[c] = image_.at_or_background(low[0] + static_cast<int>(c & 1), low[1] + static_cast<int>(c >> 1 & 1),
+                                        low[2] + static_cast<int>(c >> 2));
+    if (std::find(candidates.begin(), candidates.begin() + count, corner[c]) == candidates.begin() + count) {
+      candidates[count++] = corner[c];
+    }
+  }
+  MaterialId best = candidates[0];
+  for (std::size_t i = 1; i < count; ++i) {  // pairwise, the winner stays
+    const std::array<double, 8> field = corners(low, best, candidates[i]);
+    Vec3 slope;
+    if (trilinear(field, {at.x - low[0], at.y - low[1], at.z - low[2]}, slope) < 0) {
+      best = candidates[i];
+    }
+  }
+  return best;
+}
+
 BoundarySample ImageBoundary::sample(const Vec3& x, MaterialId a, MaterialId b) const {
   const Vec3& spacing = image_.frame.spacing_mm;
   const Vec3 at = {x.x / spacing.x, x.y / spacing.y, x.z / spacing.z};

@@ -25,6 +25,9 @@ class ImageBoundary : public Boundary {
 
   [[nodiscard]] BoundarySample sample(const Vec3& x, MaterialId a, MaterialId b) const override;
 
+  /// The material whose smoothed share is largest at x, held at the voxels' centres as the field is.
+  [[nodiscard]] MaterialId material_at(const Vec3& x) const;
+
   /// The label's surface moves outwards by so much against every other: one entry a material, mm. Corrects
   /// the loss of volume that all smooth surfaces have.
   void set_offsets(std::vector<double> offset_mm) { offset_mm_ = std::move(offset_mm); }

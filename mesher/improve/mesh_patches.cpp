@@ -246,20 +246,4 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
   }
 }
 
-std::vector<MaterialSet> vertex_materials(const MaterialMesh& mesh) {
-  std::vector<MaterialSet> sets(mesh.points.size());
-  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    for (std::size_t n = 0; n < 4; ++n) {
-      sets[mesh.tets[t][n]].add(mesh.materials[t]);
-      if (neighbours[t][n] == kNoTet) {
-        for (const std::uint8_t face : kTetFace[n]) {
-          sets[mesh.tets[t][face]].add(kBackground);
-        }
-      }
-    }
-  }
-  return sets;
-}
-
 }  // namespace cbc3d

@@ -15,7 +15,7 @@ namespace cbc3d {
 struct PatchRules {
   const Boundary& boundary;
   Guards guards;
-  const std::vector<CoverPoint>& points;
+  const std::vector<InterfacePoint>& points;
   double reach_mm = 0;            ///< of a host
   std::size_t patch_tets = 15000; ///< tets of a patch, about
 };
@@ -24,8 +24,5 @@ struct PatchRules {
 /// host of every point, kNoVertex for none, and is kept up to date. Vertices out of use stay in `mesh.points`.
 void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules, int round,
                         const std::function<void(Patch&)>& improve);
-
-/// The materials round every vertex (of size 1 or 2 and more on boundaries).
-std::vector<MaterialSet> vertex_materials(const MaterialMesh& mesh);
 
 }  // namespace cbc3d

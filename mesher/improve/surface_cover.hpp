@@ -1,9 +1,7 @@
 // Which surface vertex stands for which boundary voxel: the guard that keeps every part of the image's boundary
 // within a distance of the mesh's surface vertices while the mesh is thinned out.
 //
-// Notation: point  the centre of a boundary voxel together with the material whose boundary it is on
-//                  (background: the boundary of all materials together);
-//           host   a vertex on that boundary of the mesh within reach of the point.
+// Points and hosts are those of interface_points.hpp.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +9,17 @@
 #include <vector>
 
 #include "mesher/improve/tet_complex.hpp"
+#include "mesher/stages/interface_points.hpp"
 
 namespace cbc3d {
 
 using PointId = std::uint32_t;
 inline constexpr PointId kNoPoint = 0xFFFFFFFFU;
 
-struct CoverPoint {
-  std::array<float, 3> centre_mm;
-  MaterialId material;
-};
-
-/// The boundary voxels of every material, and of all of them together, in the order of the voxels. Parallel.
-std::vector<CoverPoint> boundary_points(const LabelImage& image);
-
 /// The hosts of some of the points, as lists at the vertices.
 class SurfaceCover {
  public:
-  SurfaceCover(const std::vector<CoverPoint>& points, double reach_mm)
+  SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm)
       : points_(&points), reach_squared_(reach_mm * reach_mm) {}
 
   /// Makes room for vertices that have no points yet.
@@ -57,20 +48,14 @@ class SurfaceCover {
     PointId next;
   };
   [[nodiscard]] bool reaches(const Vec3& at, PointId point) const {
-    const auto& c = (*points_)[point].centre_mm;
-    return (Vec3{c[0], c[1], c[2]} - at).squared_norm() <= reach_squared_;
+    return ((*points_)[point].centre() - at).squared_norm() <= reach_squared_;
   }
 
-  const std::vector<CoverPoint>* points_;
+  const std::vector<InterfacePoint>* points_;
   double reach_squared_;
   std::vector<PointId> first_;  // into links_, one a vertex
   std::vector<Link> links_;
   std::vector<VertexId> new_hosts_;  // of the links of the released vertex, in order; kNoVertex: stays
 };
-
-/// Finds for every point the nearest vertex on its boundary within reach, kNoVertex where there is none.
-/// `sets` are the materials of the vertices' stars, of size 0 or 1 away from boundaries. Parallel.
-std::vector<VertexId> nearest_hosts(const std::vector<CoverPoint>& points, const std::vector<Vec3>& vertices,
-                                    const std::vector<MaterialSet>& sets, double reach_mm);
 
 }  // namespace cbc3d

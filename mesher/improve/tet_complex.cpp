@@ -16,25 +16,6 @@ std::array<VertexId, 3> face_key(const std::array<VertexId, 4>& nodes, unsigned 
 
 }  // namespace
 
-void MaterialSet::add(MaterialId material) {
-  const auto end = ids.begin() + size;
-  const auto at = std::lower_bound(ids.begin(), end, material);
-  if (at != end && *at == material) {
-    return;
-  }
-  if (size == kCapacity) {
-    overflow = true;
-    return;
-  }
-  std::move_backward(at, end, end + 1);
-  *at = material;
-  ++size;
-}
-
-bool MaterialSet::contains(const MaterialSet& other) const {
-  return std::includes(ids.begin(), ids.begin() + size, other.ids.begin(), other.ids.begin() + other.size);
-}
-
 TetComplex::TetComplex(std::vector<Vec3> points, TetNodes tets, std::vector<MaterialId> materials,
                        std::vector<std::uint8_t> locked)
     : points_(std::move(points)),

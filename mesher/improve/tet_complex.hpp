@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/stages/tet_adjacency.hpp"
+#include "mesher/stages/interface_points.hpp"
 
 namespace cbc3d {
 
@@ -33,20 +33,6 @@ struct EdgeRing {
   std::vector<VertexId> vertices;
   std::vector<TetId> tets;
   bool closed = false;
-};
-
-/// The distinct materials around a vertex, ascending; the outside counts as background.
-struct MaterialSet {
-  static constexpr std::size_t kCapacity = 8;
-  std::array<MaterialId, kCapacity> ids{};
-  std::uint8_t size = 0;
-  bool overflow = false;  ///< more than kCapacity
-
-  void add(MaterialId material);
-  [[nodiscard]] bool has(MaterialId material) const {
-    return std::find(ids.begin(), ids.begin() + size, material) != ids.begin() + size;
-  }
-  [[nodiscard]] bool contains(const MaterialSet& other) const;
 };
 
 class TetComplex {

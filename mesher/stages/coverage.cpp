@@ -118,4 +118,35 @@ std::size_t BoundaryCoverage::uncovered_count() const {
                                                 [this](std::size_t v) { return uncovered_.test(v); }));
 }
 
+InterfaceCoverage::InterfaceCoverage(const LabelImage& image)
+    : image_(image), interfaces_(interface_points(image)), wanted_(image.frame.voxel_count()) {}
+
+void InterfaceCoverage::update(const std::vector<MaterialSet>& sets, const std::vector<Vec3>& points,
+                               double distance_mm) {
+  wanted_.clear();
+  const std::vector<std::size_t> missing = points_without_host(interfaces_, points, sets, distance_mm);
+  uncovered_ = missing.size();
+  for (const std::size_t p : missing) {
+    want(interfaces_[p]);
+  }
+}
+
+void InterfaceCoverage::want(const InterfacePoint& point) {
+  const ImageFrame& frame = image_.frame;
+  Index3 at;
+  for (int axis = 0; axis < 3; ++axis) {
+    at[static_cast<std::size_t>(axis)] =
+        static_cast<int>(std::lround(point.centre()[axis] / frame.spacing_mm[axis]));
+  }
+  wanted_.set(frame.offset(at[0], at[1], at[2]));
+  for (std::size_t n = 0; n < 6; ++n) {
+    Index3 across = at;
+    across[n / 2] += n % 2 == 0 ? -1 : 1;
+    if (frame.contains(across[0], across[1], across[2]) &&
+        image_.at(across[0], across[1], across[2]) == point.other) {
+      wanted_.set(frame.offset(across[0], across[1], across[2]));
+    }
+  }
+}
+
 }  // namespace cbc3d

@@ -6,6 +6,7 @@
 
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/voxel_bits.hpp"
+#include "mesher/stages/interface_points.hpp"
 #include "mesher/stages/tet_adjacency.hpp"
 
 namespace cbc3d {
@@ -47,6 +48,32 @@ class BoundaryCoverage {
   VoxelBits uncovered_;                // boundary voxels only
   VoxelBits across_;                   // face neighbours of uncovered voxels, of another material
   std::vector<std::size_t> boundary_;  // offsets of the boundary voxels, ascending
+};
+
+/// The same question asked for every interface: a boundary voxel with face neighbours of several materials wants a
+/// vertex where its own and that material meet for each of them. A gap of background between two labels that the
+/// mesh has closed shows here, and nowhere in the coverage of either label.
+class InterfaceCoverage {
+ public:
+  explicit InterfaceCoverage(const LabelImage& image);
+
+  /// Renews the answers; `sets` are the materials round the vertices at `points`.
+  void update(const std::vector<MaterialSet>& sets, const std::vector<Vec3>& points, double distance_mm);
+
+  /// True when one of the voxels (i_begin ... i_end - 1, j, k) has an interface missing, or is across one.
+  [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const {
+    const std::size_t row = image_.frame.offset(0, j, k);
+    return wanted_.any(row + static_cast<std::size_t>(i_begin), row + static_cast<std::size_t>(i_end));
+  }
+  [[nodiscard]] std::size_t uncovered_count() const { return uncovered_; }
+
+ private:
+  void want(const InterfacePoint& point);
+
+  const LabelImage& image_;
+  std::vector<InterfacePoint> interfaces_;
+  VoxelBits wanted_;
+  std::size_t uncovered_ = 0;
 };
 
 }  // namespace cbc3d

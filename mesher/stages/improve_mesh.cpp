@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <map>
 
 #include "mesher/core/progress.hpp"
 #include "mesher/improve/edge_collapse.hpp"
@@ -45,11 +46,11 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
     report.part_seconds.emplace_back(name, watch.seconds());
   };
 
-  std::vector<CoverPoint> points;
+  std::vector<InterfacePoint> points;
   std::vector<VertexId> hosts;
   timed("hosts", [&] {
-    points = boundary_points(image);
-    hosts = nearest_hosts(points, mesh.points, vertex_materials(mesh), reach);
+    points = interface_points(image);
+    hosts = nearest_hosts(points, mesh.points, vertex_materials(mesh.tets, mesh.materials, tet_neighbours(mesh.tets, mesh.points.size()), mesh.points.size()), reach);
   });
   report.boundary_points = points.size();
   report.uncovered_points = static_cast<std::size_t>(std::count(hosts.begin(), hosts.end(), kNoVertex));
@@ -78,6 +79,19 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
                  degrees(worst_sine_squared(mesh)), report.part_seconds.back().second);
   };
 
+  auto stat = [&] {
+      const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
+      int shown = 0; std::map<std::pair<int,int>,int> hist;
+      for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
+        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
+        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; Vec3 x = mesh.points[v]; auto b = boundary.sample(x, mesh.materials[t], o); if (b.deviation_mm > 1.0 * diagonal) { ++hist[{mesh.materials[t], o}];
+          if (shown++ < 3) { std::fprintf(stderr, "stray pair %d %d dev %.2f at %.2f %.2f %.2f:", mesh.materials[t], o, b.deviation_mm / diagonal, x.x / 3, x.y / 3, x.z / 3);
+            for (int dz = -1; dz <= 1; ++dz) { for (int dy = -1; dy <= 1; ++dy) for (int dx = -1; dx <= 1; ++dx) std::fprintf(stderr, " %d", image.at_or_background(std::lround(x.x/3)+dx, std::lround(x.y/3)+dy, std::lround(x.z/3)+dz)); std::fprintf(stderr, " |"); } std::fprintf(stderr, "\n"); } } }
+      }
+      for (auto& [k, c] : hist) std::fprintf(stderr, " %d-%d:%d", k.first, k.second, c);
+      std::fprintf(stderr, "\n");
+  };
+  stat();
   const RelaxOptions relax{options.surface_weight, 0.5, 0.01 * diagonal};
   for (int i = 0; i < 2; ++i) {
     in_patches("relax", [&](Patch& patch) {
@@ -88,6 +102,7 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       relax_vertices(patch, relax);
     });
   }
+  stat();
   for (int i = 0; i < options.decimation_rounds; ++i) {
     in_patches("decimate", [&](Patch& patch) {
       collapse_edges(patch, {threshold, 2.5, 0, false});

@@ -21,7 +21,7 @@ struct ImproveOptions {
   double decimate_dihedral_deg = 20;  ///< a collapse leaves no angle beyond this
   double reach_diagonals = 0.9; ///< every boundary voxel has a surface vertex so near, voxel diagonals
   double deviation_diagonals = 0.15;  ///< facets stay so near to the boundary, voxel diagonals
-  double surface_weight = 200;        ///< pull to the boundary against the tets' shape
+  double surface_weight = 1000;        ///< pull to the boundary against the tets' shape
   int decimation_rounds = 3;
   int repair_rounds = 3;
   ImageBoundaryOptions boundary;

@@ -14,6 +14,9 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
     options.clean.region_tolerance = 0;
     options.refine.max_distance_mm = frame.voxel_diagonal_mm();
     options.refine.fidelity = 0.01;
+    options.refine.each_interface = true;
+    options.refine.smooth_labels = true;
+    options.refine.max_stray_mm = 1.25 * frame.voxel_diagonal_mm();
     options.refine.one_face_rule = false;
     options.refine.topology_rounds = 0;
     options.refine.repair_rounds = 4;

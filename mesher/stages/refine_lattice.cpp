@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "mesher/improve/image_boundary.hpp"
 #include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/coverage.hpp"
 #include "mesher/stages/red_green.hpp"
@@ -19,7 +20,7 @@ namespace {
 class Refiner {
  public:
   Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options)
-      : lattice_(lattice), image_(image), options_(options), raster_(image.frame, lattice.frame) {
+      : lattice_(lattice), image_(image), options_(options), raster_(image.frame, lattice.frame), boundary_(image, {}) {
     const std::vector<std::size_t> voxels = image.voxels_per_material();
     rank_ = rank_by_size(image, BackgroundRank::highest);
     for (std::size_t m = 0; m < voxels.size(); ++m) {
@@ -28,7 +29,9 @@ class Refiner {
                                   own != options.material_fidelity.end() ? own->second : options.fidelity, 0,
                                   voxels[m], 0});
     }
-    if (options.max_distance_mm > 0) {
+    if (options.max_distance_mm > 0 && options.each_interface) {
+      interfaces_.emplace(image);
+    } else if (options.max_distance_mm > 0) {
       coverage_.emplace(image);
     }
   }
@@ -39,6 +42,7 @@ class Refiner {
       select();
       find_uncovered_voxels();
       measure_fidelity();
+      mark_strays();
       on_round(result_.rounds, result_.mesh.tets.size());
       if (mark() == 0 || result_.rounds == options_.max_rounds) {
         break;
@@ -64,7 +68,8 @@ class Refiner {
       for (const VertexId v : mesh.tets.nodes[t]) {
         centroid += 0.25 * points_[v];
       }
-      centroid_material_[t] = image_.at_local(centroid);
+      centroid_material_[t] =
+          options_.smooth_labels ? boundary_.material_at(centroid) : image_.at_local(centroid);
     }
     mesh.materials = centroid_material_;
   }
@@ -78,6 +83,12 @@ class Refiner {
   }
 
   void find_uncovered_voxels() {
+    if (interfaces_) {
+      const CandidateMesh& mesh = result_.mesh;
+      interfaces_->update(
+          vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, points_.size()), points_,
+          options_.max_distance_mm);
+    }
     if (coverage_) {
       const CandidateMesh& mesh = result_.mesh;
       coverage_->update(surface_vertices(mesh.tets.nodes, mesh.neighbours, mesh.materials), points_,
@@ -124,7 +135,8 @@ class Refiner {
         const auto* row = voxels + image_.frame.offset(0, j, k);
         return static_cast<std::size_t>(std::count(row + i_begin, row + i_end, own));
       });
-      uncovered = uncovered || (coverage_ && coverage_->wants_refinement(j, k, i_begin, i_end));
+      uncovered = uncovered || (coverage_ && coverage_->wants_refinement(j, k, i_begin, i_end)) ||
+                  (interfaces_ && interfaces_->wants_refinement(j, k, i_begin, i_end));
     });
     if (uncovered) {
       mark_tet(t);
@@ -160,7 +172,7 @@ class Refiner {
       ++topology_rounds_;
       mark_non_manifold();
     }
-    if (count_splittable() == 0 && coverage_ && options_.topology_checks &&
+    if (count_splittable() == 0 && options_.max_distance_mm > 0 && options_.topology_checks &&
         repairs_ < options_.repair_rounds) {
       ++repairs_;
       mark_what_repair_loses();
@@ -175,6 +187,36 @@ class Refiner {
                    {true, options_.one_face_rule, options_.repair_image_passes, 0.0});
     find_uncovered_voxels();
     measure_fidelity();
+    mark_strays();
+  }
+
+  /// The other direction: a vertex of an interface that lies too far from where the image has that interface.
+  void mark_strays() {
+    if (options_.max_stray_mm <= 0) {
+      return;
+    }
+    const CandidateMesh& mesh = result_.mesh;
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      for (std::size_t n = 0; n < 4; ++n) {
+        const TetId across = mesh.neighbours[t][n];
+        const MaterialId other = across == kNoTet ? kBackground : mesh.materials[across];
+        if (mesh.materials[t] > other && strays(t, n, other)) {
+          mark_tet(t);
+          if (across != kNoTet) {
+            mark_tet(across);
+          }
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] bool strays(std::size_t t, std::size_t n, MaterialId other) const {
+    const CandidateMesh& mesh = result_.mesh;
+    return std::any_of(kTetFace[n].begin(), kTetFace[n].end(), [&](std::uint8_t corner) {
+      const Vec3& at = points_[mesh.tets.nodes[t][corner]];
+      return boundary_.sample(at, mesh.materials[t], other).deviation_mm > options_.max_stray_mm;
+    });
   }
 
   /// The paper: when the fidelity is settled, the tets around non-manifold vertices and edges are split in
@@ -253,6 +295,7 @@ class Refiner {
 
   void finish() {
     result_.uncovered_voxels = coverage_ ? coverage_->uncovered_count() : 0;
+    result_.uncovered_voxels += interfaces_ ? interfaces_->uncovered_count() : 0;
     result_.fidelity.erase(result_.fidelity.begin());  // background
     char text[256];
     for (const MaterialFidelity& f : result_.fidelity) {
@@ -278,7 +321,9 @@ class Refiner {
   const LabelImage& image_;
   const RefineOptions& options_;
   VoxelRaster raster_;
+  ImageBoundary boundary_;
   std::optional<BoundaryCoverage> coverage_;
+  std::optional<InterfaceCoverage> interfaces_;
   std::vector<std::uint32_t> rank_;
   std::vector<Vec3> points_;
   std::vector<MaterialId> centroid_material_;

@@ -18,6 +18,10 @@ struct RefineOptions {
   double fidelity = 0.95;                     ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
   std::map<Label, double> material_fidelity;  ///< F of single labels, in place of the global one
   double max_distance_mm = 0;    ///< > 0: refine also where a boundary voxel has no interface vertex so near
+  double max_stray_mm = 0;       ///< > 0: refine also where an interface's vertex is farther than this from where
+                                 ///< the image has that interface
+  bool smooth_labels = false;    ///< a tet takes the material whose smoothed share is largest at its centroid
+  bool each_interface = false;   ///< the distance is judged for every interface, not for every material
   double finest_spacing_mm = 0;  ///< the fidelity criterion splits no tet below this lattice spacing, mm;
                                  ///< 0: the smallest voxel spacing (the distance criterion: a quarter of it)
   bool one_face_rule = true;     ///< the paper's: a candidate tet has at most one face towards background

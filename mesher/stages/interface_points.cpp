@@ -1,0 +1,182 @@
+#include "mesher/stages/interface_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cbc3d {
+namespace {
+
+/// Calls f(other) for each distinct other material across a face of voxel (i,j,k).
+template <typename F>
+void for_each_other(const LabelImage& image, int i, int j, int k, MaterialId own, const F& f) {
+  constexpr std::array<Index3, 6> kSteps = {
+      {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+  std::array<MaterialId, 6> seen{};
+  std::size_t count = 0;
+  for (const Index3& s : kSteps) {
+    const MaterialId m = image.at_or_background(i + s[0], j + s[1], k + s[2]);
+    if (m != own && std::find(seen.begin(), seen.begin() + count, m) == seen.begin() + count) {
+      seen[count++] = m;
+      f(m);
+    }
+  }
+}
+
+/// Vertices on interfaces in cubes as long as the reach, sorted by cube.
+class VertexGrid {
+ public:
+  VertexGrid(const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets, double cell_mm)
+      : vertices_(vertices), cell_mm_(cell_mm) {
+    for (VertexId v = 0; v < vertices.size(); ++v) {
+      if (sets[v].size > 1) {
+        entries_.push_back({key(cell_of(vertices[v])), v});
+      }
+    }
+    std::sort(entries_.begin(), entries_.end());
+  }
+
+  /// Calls f(vertex) for the vertices of the 27 cubes round x until it returns true.
+  template <typename F>
+  void near(const Vec3& x, const F& f) const {
+    const Index3 c = cell_of(x);
+    for (int k = c[2] - 1; k <= c[2] + 1; ++k) {
+      for (int j = c[1] - 1; j <= c[1] + 1; ++j) {  // three cubes along x follow each other
+        const Entry low = {key({c[0] - 1, j, k}), 0};
+        const std::uint64_t high = key({c[0] + 1, j, k});
+        for (auto e = std::lower_bound(entries_.begin(), entries_.end(), low);
+             e != entries_.end() && e->key <= high; ++e) {
+          if (f(e->vertex)) {
+            return;
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t key;
+    VertexId vertex;
+    auto operator<=>(const Entry&) const = default;
+  };
+  [[nodiscard]] Index3 cell_of(const Vec3& x) const {
+    return {static_cast<int>(std::floor(x.x / cell_mm_)), static_cast<int>(std::floor(x.y / cell_mm_)),
+            static_cast<int>(std::floor(x.z / cell_mm_))};
+  }
+  static std::uint64_t key(const Index3& c) {
+    constexpr int kShift = 1 << 20;  // cubes may have negative indices
+    return (static_cast<std::uint64_t>(c[2] + kShift) << 42) |
+           (static_cast<std::uint64_t>(c[1] + kShift) << 21) | static_cast<std::uint64_t>(c[0] + kShift);
+  }
+
+  const std::vector<Vec3>& vertices_;
+  double cell_mm_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+void MaterialSet::add(MaterialId material) {
+  const auto end = ids.begin() + size;
+  const auto at = std::lower_bound(ids.begin(), end, material);
+  if (at != end && *at == material) {
+    return;
+  }
+  if (size == kCapacity) {
+    overflow = true;
+    return;
+  }
+  std::move_backward(at, end, end + 1);
+  *at = material;
+  ++size;
+}
+
+std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
+                                          const std::vector<std::array<TetId, 4>>& neighbours,
+                                          std::size_t vertex_count) {
+  std::vector<MaterialSet> sets(vertex_count);
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      MaterialSet& set = sets[tets[t][n]];
+      if (set.size != 1 || set.ids[0] != materials[t]) {
+        set.add(materials[t]);
+      }
+      if (neighbours[t][n] == kNoTet && materials[t] != kBackground) {
+        for (const std::uint8_t face : kTetFace[n]) {
+          sets[tets[t][face]].add(kBackground);
+        }
+      }
+    }
+  }
+  return sets;
+}
+
+std::vector<InterfacePoint> interface_points(const LabelImage& image) {
+  const Index3& size = image.frame.size;
+  std::vector<std::vector<InterfacePoint>> slices(static_cast<std::size_t>(size[2]));
+#pragma omp parallel for schedule(dynamic)
+  for (int k = 0; k < size[2]; ++k) {
+    auto& slice = slices[static_cast<std::size_t>(k)];
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i) {
+        const MaterialId own = image.at(i, j, k);
+        if (own == kBackground) {
+          continue;
+        }
+        for_each_other(image, i, j, k, own, [&](MaterialId other) {
+          const Vec3 c = image.frame.local_centre(i, j, k);
+          slice.push_back({{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}, own, other});
+        });
+      }
+    }
+  }
+  std::vector<InterfacePoint> points;
+  for (const auto& slice : slices) {
+    points.insert(points.end(), slice.begin(), slice.end());
+  }
+  return points;
+}
+
+std::vector<VertexId> nearest_hosts(const std::vector<InterfacePoint>& points,
+                                    const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets,
+                                    double reach_mm) {
+  const VertexGrid grid(vertices, sets, reach_mm);
+  std::vector<VertexId> hosts(points.size(), kNoVertex);
+#pragma omp parallel for schedule(static, 1024)
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    double nearest = reach_mm * reach_mm;
+    grid.near(points[p].centre(), [&](VertexId v) {
+      const double d = (vertices[v] - points[p].centre()).squared_norm();
+      if (d <= nearest && points[p].is_on(sets[v])) {
+        nearest = d;
+        hosts[p] = v;
+      }
+      return false;
+    });
+  }
+  return hosts;
+}
+
+std::vector<std::size_t> points_without_host(const std::vector<InterfacePoint>& points,
+                                             const std::vector<Vec3>& vertices,
+                                             const std::vector<MaterialSet>& sets, double reach_mm) {
+  const VertexGrid grid(vertices, sets, reach_mm);
+  std::vector<std::uint8_t> hosted(points.size(), 0);
+#pragma omp parallel for schedule(static, 1024)
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    grid.near(points[p].centre(), [&](VertexId v) {
+      hosted[p] = (vertices[v] - points[p].centre()).squared_norm() <= reach_mm * reach_mm &&
+                  points[p].is_on(sets[v]);
+      return hosted[p] != 0;
+    });
+  }
+  std::vector<std::size_t> without;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (hosted[p] == 0) {
+      without.push_back(p);
+    }
+  }
+  return without;
+}
+
+}  // namespace cbc3d
