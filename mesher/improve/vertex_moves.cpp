@@ -138,6 +138,10 @@ struct VertexMover {
     return true;
   }
 
+  bool strays(VertexId v) {
+    return load(v) && deviation(patch.mesh.point(v)) > patch.guards.deviation_mm;
+  }
+
   bool relax(VertexId v, const RelaxOptions& options) {
     if (!load(v)) {
       return false;
@@ -252,6 +256,28 @@ std::size_t relax_vertices(Patch& patch, const RelaxOptions& options) {
   std::size_t moved = 0;
   for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
     moved += mover.relax(v, options) ? 1 : 0;
+  }
+  return moved;
+}
+
+std::size_t pull_strays(Patch& patch, const RelaxOptions& options) {
+  VertexMover mover(patch);
+  std::size_t moved = 0;
+  std::vector<VertexId> around;
+  for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
+    for (int turn = 0; turn < 4 && patch.on_boundary(v) && mover.strays(v); ++turn) {
+      const std::size_t before = moved;
+      moved += mover.relax(v, options) ? 1 : 0;
+      patch.mesh.star(v, patch.star);
+      patch.mesh.neighbours(v, patch.star, around);
+      for (const VertexId w : around) {
+        moved += mover.relax(w, options) ? 1 : 0;
+      }
+      moved += mover.relax(v, options) ? 1 : 0;
+      if (moved == before) {
+        break;
+      }
+    }
   }
   return moved;
 }

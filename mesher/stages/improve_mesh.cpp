@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <map>
 
 #include "mesher/core/progress.hpp"
 #include "mesher/improve/edge_collapse.hpp"
@@ -26,6 +25,48 @@ double worst_sine_squared(const MaterialMesh& mesh) {
   return worst;
 }
 
+/// Volume of every material, and the area of its surface.
+struct Extent {
+  std::vector<double> volume_mm3, area_mm2;
+};
+
+Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials) {
+  Extent extent{std::vector<double>(materials, 0.0), std::vector<double>(materials, 0.0)};
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets[t];
+    const MaterialId m = mesh.materials[t];
+    extent.volume_mm3[m] +=
+        six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6;
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (neighbours[t][f] == kNoTet || mesh.materials[neighbours[t][f]] != m) {
+        const auto& face = kTetFace[f];
+        const Vec3& p = mesh.points[n[face[0]]];
+        extent.area_mm2[m] +=
+            0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
+      }
+    }
+  }
+  return extent;
+}
+
+/// Moves the boundaries outwards by what each material lacks in volume, at most half a voxel in all.
+void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, ImageBoundary& boundary) {
+  const Vec3& spacing = image.frame.spacing_mm;
+  const double voxel_mm3 = spacing.x * spacing.y * spacing.z;
+  const double most_mm = 0.5 * std::cbrt(voxel_mm3);
+  const Extent extent = extent_of_materials(mesh, image.material_count());
+  const std::vector<std::size_t> voxels = image.voxels_per_material();
+  std::vector<double> offsets = boundary.offsets();
+  for (std::size_t m = 1; m < offsets.size(); ++m) {
+    if (extent.area_mm2[m] > 0) {
+      const double lack = static_cast<double>(voxels[m]) * voxel_mm3 - extent.volume_mm3[m];
+      offsets[m] = std::clamp(offsets[m] + lack / extent.area_mm2[m], -most_mm, most_mm);
+    }
+  }
+  boundary.set_offsets(std::move(offsets));
+}
+
 double degrees(double sine_squared) {
   return sine_squared <= 0 ? 0 : std::asin(std::sqrt(std::min(1.0, sine_squared))) * 180 / std::numbers::pi;
 }
@@ -38,7 +79,7 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   report.tets_before = mesh.tets.size();
   report.min_dihedral_before_deg = degrees(worst_sine_squared(mesh));
   const double diagonal = image.frame.voxel_diagonal_mm();
-  const ImageBoundary boundary(image, options.boundary);
+  ImageBoundary boundary(image, options.boundary);
   const double reach = options.reach_diagonals * diagonal;
   const auto timed = [&](const std::string& name, const auto& part) {
     const Stopwatch watch;
@@ -79,19 +120,6 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
                  degrees(worst_sine_squared(mesh)), report.part_seconds.back().second);
   };
 
-  auto stat = [&] {
-      const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
-      int shown = 0; std::map<std::pair<int,int>,int> hist;
-      for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
-        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
-        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; Vec3 x = mesh.points[v]; auto b = boundary.sample(x, mesh.materials[t], o); if (b.deviation_mm > 1.0 * diagonal) { ++hist[{mesh.materials[t], o}];
-          if (shown++ < 3) { std::fprintf(stderr, "stray pair %d %d dev %.2f at %.2f %.2f %.2f:", mesh.materials[t], o, b.deviation_mm / diagonal, x.x / 3, x.y / 3, x.z / 3);
-            for (int dz = -1; dz <= 1; ++dz) { for (int dy = -1; dy <= 1; ++dy) for (int dx = -1; dx <= 1; ++dx) std::fprintf(stderr, " %d", image.at_or_background(std::lround(x.x/3)+dx, std::lround(x.y/3)+dy, std::lround(x.z/3)+dz)); std::fprintf(stderr, " |"); } std::fprintf(stderr, "\n"); } } }
-      }
-      for (auto& [k, c] : hist) std::fprintf(stderr, " %d-%d:%d", k.first, k.second, c);
-      std::fprintf(stderr, "\n");
-  };
-  stat();
   const RelaxOptions relax{options.surface_weight, 0.5, 0.01 * diagonal};
   for (int i = 0; i < 2; ++i) {
     in_patches("relax", [&](Patch& patch) {
@@ -100,9 +128,10 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       remove_edges(patch, good);
       flatten_interfaces(patch, threshold);
       relax_vertices(patch, relax);
+      pull_strays(patch, relax);
     });
+    timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
   }
-  stat();
   for (int i = 0; i < options.decimation_rounds; ++i) {
     in_patches("decimate", [&](Patch& patch) {
       collapse_edges(patch, {threshold, 2.5, 0, false});
@@ -113,9 +142,11 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       flatten_interfaces(patch, threshold);
       collapse_edges(patch, {threshold, 2.5, 0, false});
       relax_vertices(patch, relax);
+      pull_strays(patch, relax);
       remove_edges(patch, good);
       flatten_interfaces(patch, threshold);
     });
+    timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
   }
   for (int i = 0; i < options.repair_rounds; ++i) {
     in_patches("repair", [&](Patch& patch) {
