@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <map>
 
 #include "mesher/core/progress.hpp"
 #include "mesher/improve/edge_collapse.hpp"
@@ -157,6 +158,17 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       }
       climb_vertices(patch, goal);
     });
+  }
+  {
+    const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
+    const auto sets = vertex_materials(mesh.tets, mesh.materials, nb, mesh.points.size());
+    std::vector<double> dev(mesh.points.size(), -1); std::vector<std::pair<int,int>> pr(mesh.points.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
+        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
+        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; double d = boundary.sample(mesh.points[v], mesh.materials[t], o).deviation_mm; if (d > dev[v]) { dev[v] = d; pr[v] = {mesh.materials[t], o}; } } }
+    std::map<int, int> by, all; int shown = 0;
+    for (VertexId v = 0; v < dev.size(); ++v) { if (dev[v] >= 0) ++all[sets[v].size]; if (dev[v] > 0.5 * diagonal) { ++by[sets[v].size]; if (shown++ % 40 == 0) { Vec3 x = mesh.points[v]; auto s = image.frame.spacing_mm; std::fprintf(stderr, "stuck pair %d %d dev %.2f set", pr[v].first, pr[v].second, dev[v] / diagonal); for (int i = 0; i < sets[v].size; ++i) std::fprintf(stderr, " %d", sets[v].ids[i]); std::fprintf(stderr, " at %.2f %.2f %.2f:", x.x / s.x, x.y / s.y, x.z / s.z); for (int dz = -1; dz <= 1; ++dz) { for (int dy = -1; dy <= 1; ++dy) for (int dx = -1; dx <= 1; ++dx) std::fprintf(stderr, " %d", image.at_or_background(std::lround(x.x/s.x)+dx, std::lround(x.y/s.y)+dy, std::lround(x.z/s.z)+dz)); std::fprintf(stderr, " |"); } std::fprintf(stderr, "\n"); } } }
+    for (auto [k, c] : by) std::fprintf(stderr, "set size %d: %d of %d\n", k, c, all[k]);
   }
   drop_unused_vertices(mesh);
   report.tets_after = mesh.tets.size();

@@ -111,6 +111,36 @@ std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vecto
   return sets;
 }
 
+bool all_meet_near(const LabelImage& image, const Vec3& local_mm, const MaterialSet& set, double reach_mm) {
+  const ImageFrame& frame = image.frame;
+  Index3 low;
+  Index3 high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    low[a] = static_cast<int>(std::floor((local_mm[axis] - reach_mm) / frame.spacing_mm[axis]));
+    high[a] = static_cast<int>(std::floor((local_mm[axis] + reach_mm) / frame.spacing_mm[axis]));
+  }
+  std::array<std::uint8_t, MaterialSet::kCapacity> met{};  // bits of the materials that each has met
+  for (int k = low[2]; k <= high[2]; ++k) {
+    for (int j = low[1]; j <= high[1]; ++j) {
+      for (int i = low[0]; i <= high[0]; ++i) {
+        unsigned here = 0;
+        for (int c = 0; c < 8; ++c) {
+          const MaterialId m = image.at_or_background(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
+          for (std::uint8_t s = 0; s < set.size; ++s) {
+            here |= set.ids[s] == m ? 1U << s : 0U;
+          }
+        }
+        for (std::uint8_t s = 0; s < set.size; ++s) {
+          met[s] = static_cast<std::uint8_t>(met[s] | ((here >> s & 1U) != 0 ? here : 0U));
+        }
+      }
+    }
+  }
+  const auto all = static_cast<std::uint8_t>((1U << set.size) - 1U);
+  return std::all_of(met.begin(), met.begin() + set.size, [all](std::uint8_t m) { return m == all; });
+}
+
 std::vector<InterfacePoint> interface_points(const LabelImage& image) {
   const Index3& size = image.frame.size;
   std::vector<std::vector<InterfacePoint>> slices(static_cast<std::size_t>(size[2]));

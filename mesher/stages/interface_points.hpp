@@ -38,6 +38,9 @@ std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vecto
                                           const std::vector<std::array<TetId, 4>>& neighbours,
                                           std::size_t vertex_count);
 
+/// True when every two of the materials meet, at least by a corner of voxels, within `reach_mm` of a place.
+bool all_meet_near(const LabelImage& image, const Vec3& local_mm, const MaterialSet& set, double reach_mm);
+
 struct InterfacePoint {
   std::array<float, 3> centre_mm;  ///< local
   MaterialId own;                  ///< never background

@@ -85,9 +85,8 @@ class Refiner {
   void find_uncovered_voxels() {
     if (interfaces_) {
       const CandidateMesh& mesh = result_.mesh;
-      interfaces_->update(
-          vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, points_.size()), points_,
-          options_.max_distance_mm);
+      sets_ = vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, points_.size());
+      interfaces_->update(sets_, points_, options_.max_distance_mm);
     }
     if (coverage_) {
       const CandidateMesh& mesh = result_.mesh;
@@ -195,6 +194,7 @@ class Refiner {
     if (options_.max_stray_mm <= 0) {
       return;
     }
+    mark_false_contacts();
     const CandidateMesh& mesh = result_.mesh;
 #pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -207,6 +207,22 @@ class Refiner {
             mark_tet(across);
           }
         }
+      }
+    }
+  }
+
+  /// Materials that meet at a vertex of the mesh and nowhere near it in the image: the lattice bridges a gap.
+  void mark_false_contacts() {
+    std::vector<std::uint8_t> bad(points_.size(), 0);
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (std::size_t v = 0; v < sets_.size(); ++v) {
+      bad[v] = sets_[v].size > 2 && !all_meet_near(image_, points_[v], sets_[v], options_.max_stray_mm) ? 1 : 0;
+    }
+    const TetNodes& nodes = result_.mesh.tets.nodes;
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < nodes.size(); ++t) {
+      if (std::any_of(nodes[t].begin(), nodes[t].end(), [&](VertexId v) { return !sets_.empty() && bad[v] != 0; })) {
+        mark_tet(t);
       }
     }
   }
@@ -324,6 +340,7 @@ class Refiner {
   ImageBoundary boundary_;
   std::optional<BoundaryCoverage> coverage_;
   std::optional<InterfaceCoverage> interfaces_;
+  std::vector<MaterialSet> sets_;  // of interfaces_' last update
   std::vector<std::uint32_t> rank_;
   std::vector<Vec3> points_;
   std::vector<MaterialId> centroid_material_;
