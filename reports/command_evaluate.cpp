@@ -1,4 +1,6 @@
 // cbc3d-bench evaluate: any mesh against any segmentation.
+#include <fstream>
+#include <iomanip>
 #include <iostream>
 
 #include "mesher/core/atomic_file.hpp"
@@ -39,6 +41,18 @@ nlohmann::json image_section(const LabelImage& image) {
           {"labels", std::vector<Label>(image.labels.begin() + 1, image.labels.end())}};
 }
 
+/// Straight into the file: of tens of thousands of labels the text is hundreds of megabytes.
+void write_json(const std::string& path, const nlohmann::json& evaluation) {
+  AtomicFile file(path);
+  std::ofstream out(file.temporary(), std::ios::binary);
+  out << std::setw(evaluation.at("quality").at("per_label").size() > 1000 ? 0 : 2) << evaluation << '\n';
+  out.close();
+  if (!out) {
+    throw JobError("cannot write '" + path + "': the disk is full or the file cannot be written");
+  }
+  file.commit();
+}
+
 int evaluate(const EvaluateCommandOptions& options) {
   if (!options.json.empty()) {
     require_writable(options.json);
@@ -52,8 +66,7 @@ int evaluate(const EvaluateCommandOptions& options) {
   evaluation["image"] = image_section(image);
   progress.done();
   if (!options.json.empty()) {
-    write_text_file(options.json,
-                    evaluation.dump(evaluation.at("quality").at("per_label").size() > 1000 ? -1 : 2) + "\n");
+    write_json(options.json, evaluation);
   }
   if (!options.quiet) {
     for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
