@@ -182,20 +182,25 @@ nlohmann::json percentiles_json(const Percentiles& percentiles) {
   return object;
 }
 
-nlohmann::json one_json(const ElementQuality& quality) {
+// `in_full`: with the distributions.
+nlohmann::json one_json(const ElementQuality& quality, bool in_full) {
+  const auto distribution = [in_full](const Percentiles& percentiles) {
+    return in_full ? percentiles_json(percentiles) : nlohmann::json(nullptr);
+  };
   const std::optional<double> smallest = min_of(min_of(quality.min_sj_tets, quality.min_sj_pyramids),
                                                 min_of(quality.min_sj_wedges, quality.min_sj_hexes));
   return {{"cells", quality.cells},
           {"min_dihedral_deg", number_or_null(quality.min_dihedral_deg)},
           {"max_dihedral_deg", number_or_null(quality.max_dihedral_deg)},
-          {"dihedral_histogram_5deg", quality.dihedral_histogram},
-          {"dihedral_percentiles_deg", percentiles_json(quality.dihedral_deg)},
+          {"dihedral_histogram_5deg",
+           in_full ? nlohmann::json(quality.dihedral_histogram) : nlohmann::json(nullptr)},
+          {"dihedral_percentiles_deg", distribution(quality.dihedral_deg)},
           {"max_radius_ratio", number_or_null(quality.max_radius_ratio)},
-          {"radius_ratio_percentiles", percentiles_json(quality.radius_ratio)},
+          {"radius_ratio_percentiles", distribution(quality.radius_ratio)},
           {"min_mean_ratio", number_or_null(quality.min_mean_ratio)},
-          {"mean_ratio_percentiles", percentiles_json(quality.mean_ratio)},
+          {"mean_ratio_percentiles", distribution(quality.mean_ratio)},
           {"min_scaled_jacobian", number_or_null(smallest)},
-          {"scaled_jacobian_percentiles", percentiles_json(quality.scaled_jacobian)},
+          {"scaled_jacobian_percentiles", distribution(quality.scaled_jacobian)},
           {"min_scaled_jacobian_tets", number_or_null(quality.min_sj_tets)},
           {"min_scaled_jacobian_pyramids", number_or_null(quality.min_sj_pyramids)},
           {"min_scaled_jacobian_pyramids_bcc", number_or_null(quality.min_sj_pyramids_bcc)},
@@ -208,19 +213,41 @@ nlohmann::json one_json(const ElementQuality& quality) {
 
 // Running figures and values per label: cells in blocks of fixed length, added up in order, so that the
 // values come in the same order at any thread count.
+// Only the labels that a block holds take room in it.
 struct LabelBlock {
+  std::vector<std::uint32_t> labels;  // ascending
   std::vector<Running> running;
   std::vector<Values> values;
 };
 
+LabelBlock empty_block(const MeshView& view, std::size_t begin, std::size_t end,
+                       std::vector<std::uint32_t>& place) {
+  std::vector<std::uint8_t> present(view.labels().size(), 0);
+  for (std::size_t c = begin; c < end; ++c) {
+    present[view.label_index(c)] = 1;
+  }
+  LabelBlock block;
+  place.assign(present.size(), 0);
+  for (std::uint32_t l = 0; l < present.size(); ++l) {
+    if (present[l] != 0) {
+      place[l] = static_cast<std::uint32_t>(block.labels.size());
+      block.labels.push_back(l);
+    }
+  }
+  block.running.resize(block.labels.size());
+  block.values.resize(block.labels.size());
+  return block;
+}
+
 LabelBlock measure_block(const MeshView& view, std::size_t begin, std::size_t end) {
   // On the physical coordinates: there a positive cell is positive whatever the image's axes.
   const std::vector<Vec3>& points = view.mesh().points;
-  LabelBlock block{std::vector<Running>(view.labels().size()), std::vector<Values>(view.labels().size())};
+  std::vector<std::uint32_t> place;
+  LabelBlock block = empty_block(view, begin, end, place);
   for (std::size_t c = begin; c < end; ++c) {
     const CellView cell = view.cell(c);
-    Running& running = block.running[view.label_index(c)];
-    Values& values = block.values[view.label_index(c)];
+    Running& running = block.running[place[view.label_index(c)]];
+    Values& values = block.values[place[view.label_index(c)]];
     ++running.cells;
     add_volume(cell, c, points, running);
     const double jacobian = add_shape(cell, points, running, values);
@@ -266,11 +293,12 @@ MeshQuality element_quality(const MeshView& view) {
   std::vector<Running> running(labels + 1);
   std::vector<Values> values(labels + 1);
   for (LabelBlock& block : measured) {
-    for (std::size_t l = 0; l < labels; ++l) {
-      running[l].merge(block.running[l]);
-      running[labels].merge(block.running[l]);
-      values[l].append(block.values[l]);
-      values[labels].append(block.values[l]);
+    for (std::size_t n = 0; n < block.labels.size(); ++n) {
+      const std::uint32_t l = block.labels[n];
+      running[l].merge(block.running[n]);
+      running[labels].merge(block.running[n]);
+      values[l].append(block.values[n]);
+      values[labels].append(block.values[n]);
     }
     block = {};
   }
@@ -285,7 +313,7 @@ MeshQuality element_quality(const MeshView& view) {
 }
 
 nlohmann::json to_json(const MeshQuality& quality, const MeshView& view) {
-  nlohmann::json object = one_json(quality.all);
+  nlohmann::json object = one_json(quality.all, true);
   object["scaled_jacobian_norms"] = {
       {"tets", "Verdict: 1 for the regular tet"},
       {"pyramids", "Verdict 1.4: 1 for the pyramid with eight equal edges"},
@@ -294,7 +322,7 @@ nlohmann::json to_json(const MeshQuality& quality, const MeshView& view) {
       {"hexes", "Verdict: 1 for the box, over corners and centre"}};
   auto per_label = nlohmann::json::array();
   for (std::size_t l = 0; l < quality.per_label.size(); ++l) {
-    per_label.push_back(one_json(quality.per_label[l]));
+    per_label.push_back(one_json(quality.per_label[l], quality.per_label.size() <= kMostLabelsInFull));
     per_label.back()["label"] = view.labels()[l];
   }
   object["per_label"] = std::move(per_label);

@@ -51,6 +51,10 @@ struct MeshQuality {
 /// Time n; memory about 100 bytes a cell.
 MeshQuality element_quality(const MeshView& view);
 
+/// Of a mesh of more labels the histogram and percentiles of single labels are null: nobody reads them, and
+/// they would be gigabytes.
+inline constexpr std::size_t kMostLabelsInFull = 10000;
+
 /// Keys: cells, min_dihedral_deg, max_dihedral_deg, dihedral_histogram_5deg, dihedral_percentiles_deg,
 /// max_radius_ratio, radius_ratio_percentiles, min_mean_ratio, mean_ratio_percentiles (these tets only),
 /// min_scaled_jacobian and scaled_jacobian_percentiles (Verdict's, over all cells), per kind of cell

@@ -50,6 +50,7 @@ class FidelityMeasurer {
   Fidelity measure() {
     const std::vector<std::size_t> voxels = image_.voxels_per_material();
     Fidelity result;
+    result.per_label.reserve(image_.material_count());
     result.labels = compare_labels(view_, image_, voxels);
     volumes_ = label_volumes_mm3(view_);
     progress_.step("overlap", 0.3);
@@ -58,8 +59,11 @@ class FidelityMeasurer {
     boundaries_ = image_boundaries(image_);
     image_.voxels.page_out();
     const std::size_t labels = image_.material_count();
-    for (std::size_t m = 1; m < labels; ++m) {
-      progress_.step("distances", 0.45 + 0.5 * static_cast<double>(m - 1) / static_cast<double>(labels));
+    for (std::size_t m = 1, told = 0; m < labels; ++m) {
+      if (const std::size_t percent = 100 * m / labels; percent > told || m == 1) {
+        told = percent;
+        progress_.step("distances", 0.45 + 0.5 * static_cast<double>(m - 1) / static_cast<double>(labels));
+      }
       if (voxels[m] > 0) {
         measure_label(static_cast<MaterialId>(m), voxels[m], result);
       }
@@ -68,6 +72,9 @@ class FidelityMeasurer {
     progress_.step("distances", 0.95);
     result.outer = outer_is_ ? *outer_is_ : measure_surface(outer_);
     result.outer_points = point_set_distance(outer_voxels(), outer_vertices());
+    if (result.interfaces > kMostInterfaces) {
+      result.per_interface = {};
+    }
     std::sort(result.per_interface.begin(), result.per_interface.end(),
               [](const auto& a, const auto& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); });
     return result;
@@ -175,14 +182,20 @@ class FidelityMeasurer {
       if (other > m) {
         continue;
       }
-      const auto [a, b] = std::minmax(image_.labels[other], image_.labels[m]);
-      InterfaceFidelity& row = result.per_interface.emplace_back();
-      row.a = other == kBackground ? 0 : a;
-      row.b = other == kBackground ? image_.labels[m] : b;
-      row.surface = alone ? whole : measure_surface(part);
+      const bool in_table = ++result.interfaces <= kMostInterfaces;
+      const bool first_outer = other == kBackground && outer_parts_++ == 0;
+      SurfaceFidelity surface;
+      if (in_table || first_outer) {
+        surface = alone ? whole : measure_surface(part);
+      }
       if (other == kBackground) {
-        outer_is_ = outer_parts_++ == 0 ? std::optional(row.surface) : std::nullopt;
+        outer_is_ = first_outer ? std::optional(surface) : std::nullopt;
         outer_.append(part);
+      }
+      if (in_table) {
+        const auto [a, b] = std::minmax(image_.labels[other], image_.labels[m]);
+        result.per_interface.push_back(
+            {other == kBackground ? 0 : a, other == kBackground ? image_.labels[m] : b, std::move(surface)});
       }
     }
   }
@@ -326,9 +339,6 @@ struct Totals {
   }
 };
 
-/// Beyond so many interfaces their table would be the bulk of the result, and nobody reads it.
-constexpr std::size_t kMostInterfaces = 10000;
-
 }  // namespace
 
 Fidelity fidelity(const MeshView& view, const LabelImage& image, const Surface& surface,
@@ -344,9 +354,6 @@ json to_json(const Fidelity& fidelity, const FidelityOptions& options) {
     per_label.push_back(label_json(row, fidelity.per_label.size() <= kMostInterfaces));
   }
   for (const InterfaceFidelity& row : fidelity.per_interface) {
-    if (fidelity.per_interface.size() > kMostInterfaces) {
-      break;
-    }
     per_interface.push_back({{"labels", {row.a, row.b}}});
     write_surface(per_interface.back(), row.surface);
     write_directions(per_interface.back(), row.surface);
@@ -356,7 +363,7 @@ json to_json(const Fidelity& fidelity, const FidelityOptions& options) {
               {"missing_labels", fidelity.labels.missing},
               {"unknown_labels", fidelity.labels.unknown},
               {"surface_tolerance_mm", nullptr},
-              {"interfaces", fidelity.per_interface.size()},
+              {"interfaces", fidelity.interfaces},
               {"outer_surface", json::object()}};
   object["per_label"] = std::move(per_label);
   object["per_interface"] = std::move(per_interface);

@@ -14,6 +14,9 @@
 
 namespace cbc3d::metrics {
 
+/// Beyond so many interfaces their table would be the bulk of the result, and nobody reads it.
+inline constexpr std::size_t kMostInterfaces = 10000;
+
 struct FidelityOptions {
   bool smooth = true;                     ///< distances to the smooth surfaces too (smooth_surface.hpp)
   std::optional<CertifyOptions> certify;  ///< certified bounds of the surface Hausdorff distances
@@ -45,7 +48,8 @@ struct InterfaceFidelity {
 struct Fidelity {
   LabelComparison labels;
   std::vector<LabelFidelity> per_label;          ///< the image's labels with voxels, ascending
-  std::vector<InterfaceFidelity> per_interface;  ///< ascending
+  std::vector<InterfaceFidelity> per_interface;  ///< ascending; none when there are more than kMostInterfaces
+  std::size_t interfaces = 0;                    ///< how many there are
   SurfaceFidelity outer;                         ///< all labels together against background
   /// The paper's distance of the same: vertices on facets towards background or the outside, centres of
   /// voxels of a label with a face neighbour of background.

@@ -65,6 +65,56 @@ VoxelBox bounds_of(const LabelImage& image, MaterialId material) {
   return box;
 }
 
+// Smoothed indicators of the materials in reach of a voxel: few as a rule, at most one a voxel. Those that
+// collide in the table follow each other.
+class MaterialsInReach {
+ public:
+  void clear() {
+    for (std::size_t n = 0; n < count_; ++n) {
+      table_[used_[n]].held = false;
+    }
+    count_ = 0;
+    last_ = table_.size() - 1;
+  }
+  void add(MaterialId material, double weight) {
+    if (!table_[last_].held || table_[last_].material != material) {
+      find(material);
+    }
+    table_[last_].sum += weight;
+  }
+  [[nodiscard]] std::pair<double, double> own_and_largest_other(MaterialId own) const {
+    std::pair<double, double> result{0, 0};
+    for (std::size_t n = 0; n < count_; ++n) {
+      const Entry& entry = table_[used_[n]];
+      double& to = entry.material == own ? result.first : result.second;
+      to = std::max(to, entry.sum);
+    }
+    return result;
+  }
+
+ private:
+  struct Entry {
+    double sum = 0;
+    MaterialId material = 0;
+    bool held = false;
+  };
+
+  void find(MaterialId material) {
+    last_ = material % table_.size();
+    while (table_[last_].held && table_[last_].material != material) {
+      last_ = (last_ + 1) % table_.size();
+    }
+    if (!table_[last_].held) {
+      table_[last_] = {0, material, true};
+      used_[count_++] = static_cast<std::uint8_t>(last_);
+    }
+  }
+
+  std::array<Entry, 256> table_;  // over twice what 125 voxels can hold
+  std::array<std::uint8_t, 125> used_{};
+  std::size_t count_ = 0, last_ = 0;
+};
+
 // Evaluates s and marches the cells of one layer at a time.
 class Marcher {
  public:
@@ -168,30 +218,16 @@ class Marcher {
   }
 
   double evaluate(int i, int j, int k) {
-    // Smoothed indicators of the few materials in reach.
-    std::array<std::pair<MaterialId, double>, 125> smoothed;
-    std::size_t materials = 0, last = 0;
+    reach_.clear();
     for (int dk = -kReach; dk <= kReach; ++dk) {
       for (int dj = -kReach; dj <= kReach; ++dj) {
         const double row = weight(dk) * weight(dj);
         for (int di = -kReach; di <= kReach; ++di) {
-          const MaterialId m = image_.at_or_background(i + di, j + dj, k + dk);
-          if (materials == 0 || smoothed[last].first != m) {
-            for (last = 0; last < materials && smoothed[last].first != m; ++last) {
-            }
-            if (last == materials) {
-              smoothed[materials++] = {m, 0};
-            }
-          }
-          smoothed[last].second += row * weight(di);
+          reach_.add(image_.at_or_background(i + di, j + dj, k + dk), row * weight(di));
         }
       }
     }
-    double own = 0, largest_other = 0;
-    for (std::size_t n = 0; n < materials; ++n) {
-      double& to = smoothed[n].first == material_ ? own : largest_other;
-      to = std::max(to, smoothed[n].second);
-    }
+    const auto [own, largest_other] = reach_.own_and_largest_other(material_);
     const bool inside = image_.at_or_background(i, j, k) == material_;
     return inside ? std::max(own - largest_other, kKeptSign) : std::min(own - largest_other, -kKeptSign);
   }
@@ -207,6 +243,7 @@ class Marcher {
   std::size_t width_, height_;
   std::array<std::vector<float>, 2> layers_;
   std::array<int, 2> held_{-100, -100};
+  MaterialsInReach reach_;
 };
 
 }  // namespace

@@ -1,4 +1,6 @@
 // cbc3d-bench evaluate: any mesh against any segmentation.
+#include <fstream>
+#include <iomanip>
 #include <iostream>
 
 #include "cases/phantoms/registry.hpp"
@@ -63,6 +65,18 @@ metrics::LabelShapes shapes_of(const EvaluateCommandOptions& options) {
   return cases::phantom_signed_distance(phantom);
 }
 
+/// Straight into the file: of tens of thousands of labels the text is hundreds of megabytes.
+void write_json(const std::string& path, const nlohmann::json& evaluation) {
+  AtomicFile file(path);
+  std::ofstream out(file.temporary(), std::ios::binary);
+  out << std::setw(evaluation.at("quality").at("per_label").size() > 1000 ? 0 : 2) << evaluation << '\n';
+  out.close();
+  if (!out) {
+    throw JobError("cannot write '" + path + "': the disk is full or the file cannot be written");
+  }
+  file.commit();
+}
+
 int evaluate(const EvaluateCommandOptions& options) {
   if (!options.json.empty()) {
     require_writable(options.json);
@@ -80,8 +94,7 @@ int evaluate(const EvaluateCommandOptions& options) {
   evaluation["evaluation_peak_mb"] = kMegabytesPerByte * static_cast<double>(process_peak_rss_bytes());
   progress.done();
   if (!options.json.empty()) {
-    write_text_file(options.json,
-                    evaluation.dump(evaluation.at("quality").at("per_label").size() > 1000 ? -1 : 2) + "\n");
+    write_json(options.json, evaluation);
   }
   if (!options.quiet) {
     for (const char* section : {"counts", "quality", "fidelity", "topology", "one_look", "shape"}) {

@@ -63,14 +63,16 @@ void copy_padded(const LabelImage& image, Word* words) {
   const std::size_t row = static_cast<std::size_t>(n[0]) + 2 * kPadding;
   const std::size_t slice = row * (static_cast<std::size_t>(n[1]) + 2 * kPadding);
   std::fill(words, words + slice * (static_cast<std::size_t>(n[2]) + 2 * kPadding), Word{0});
-  for (int k = 0; k < n[2]; ++k) {
-    for (int j = 0; j < n[1]; ++j) {
-      const MaterialId* from = &image.voxels[image.frame.offset(0, j, k)];
-      Word* to = words + static_cast<std::size_t>(k + kPadding) * slice +
-                 static_cast<std::size_t>(j + kPadding) * row + kPadding;
-      std::transform(from, from + n[0], to, [](MaterialId m) { return static_cast<Word>(m); });
+  image.voxels.visit([&](const auto* voxels) {
+    for (int k = 0; k < n[2]; ++k) {
+      for (int j = 0; j < n[1]; ++j) {
+        const auto* from = voxels + image.frame.offset(0, j, k);
+        Word* to = words + static_cast<std::size_t>(k + kPadding) * slice +
+                   static_cast<std::size_t>(j + kPadding) * row + kPadding;
+        std::transform(from, from + n[0], to, [](MaterialId m) { return static_cast<Word>(m); });
+      }
     }
-  }
+  });
 }
 
 // The image in CGAL's own form: padded, material indices as words of `word_bytes`, no translation.

@@ -58,7 +58,7 @@ const Prepared& prepared(int size) {
 void count_voxels(benchmark::State& state, const LabelImage& image) {
   const auto voxels = static_cast<std::int64_t>(image.voxels.size());
   state.SetItemsProcessed(state.iterations() * voxels);
-  state.SetBytesProcessed(state.iterations() * voxels * static_cast<std::int64_t>(sizeof(MaterialId)));
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(image.voxels.bytes()));
 }
 
 void count_tets(benchmark::State& state, std::size_t tets) {
