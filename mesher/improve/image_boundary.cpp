@@ -55,19 +55,26 @@ double ImageBoundary::clamped(double value, const std::array<signed char, 64>& s
   return own * std::max(own * value, hold);
 }
 
-std::array<double, 8> ImageBoundary::corners(const Index3& low, MaterialId a, MaterialId b) const {
+bool ImageBoundary::corners(const Index3& low, MaterialId a, MaterialId b, std::array<double, 8>& corner) const {
   std::array<signed char, 64> side{};
   const Index3& size = image_.frame.size;
   const bool inside = low[0] >= 1 && low[1] >= 1 && low[2] >= 1 && low[0] + 2 < size[0] &&
                       low[1] + 2 < size[1] && low[2] + 2 < size[2];
   std::size_t n = 0;
+  int of_a = 0;
+  int of_b = 0;
   for (int k = low[2] - 1; k < low[2] + 3; ++k) {
     for (int j = low[1] - 1; j < low[1] + 3; ++j) {
       for (int i = low[0] - 1; i < low[0] + 3; ++i, ++n) {
         const MaterialId m = inside ? image_.at(i, j, k) : image_.at_or_background(i, j, k);
         side[n] = static_cast<signed char>((m == a ? 1 : 0) - (m == b ? 1 : 0));
+        of_a += m == a ? 1 : 0;
+        of_b += m == b ? 1 : 0;
       }
     }
+  }
+  if (of_a == 0 || of_b == 0) {
+    return false;
   }
   // Twice 1 2 1 along each axis, in whole numbers: 64ths at the end.
   std::array<int, 32> along_x{};
@@ -83,14 +90,13 @@ std::array<double, 8> ImageBoundary::corners(const Index3& low, MaterialId a, Ma
       along_y[4 * k + e] = s[0] + 2 * s[2] + s[4];
     }
   }
-  std::array<double, 8> corner{};
   for (std::size_t c = 0; c < 8; ++c) {
     const std::size_t from = 4 * (c >> 2) + (c & 3);
     const double value = (along_y[from] + 2 * along_y[from + 4] + along_y[from + 8]) / 64.0;
     const int at = 21 + static_cast<int>((c & 1) + 4 * ((c >> 1) & 1) + 16 * (c >> 2));
     corner[c] = clamped(value, side, at);
   }
-  return corner;
+  return true;
 }
 
 MaterialId ImageBoundary::material_at(const Vec3& x) const {
@@ -110,9 +116,9 @@ MaterialId ImageBoundary::material_at(const Vec3& x) const {
   }
   MaterialId best = candidates[0];
   for (std::size_t i = 1; i < count; ++i) {  // pairwise, the winner stays
-    const std::array<double, 8> field = corners(low, best, candidates[i]);
+    std::array<double, 8> field{};
     Vec3 slope;
-    if (trilinear(field, {at.x - low[0], at.y - low[1], at.z - low[2]}, slope) < 0) {
+    if (corners(low, best, candidates[i], field) && trilinear(field, {at.x - low[0], at.y - low[1], at.z - low[2]}, slope) < 0) {
       best = candidates[i];
     }
   }
@@ -124,7 +130,10 @@ BoundarySample ImageBoundary::sample(const Vec3& x, MaterialId a, MaterialId b) 
   const Vec3 at = {x.x / spacing.x, x.y / spacing.y, x.z / spacing.z};
   const Index3 low = {static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)),
                       static_cast<int>(std::floor(at.z))};
-  const std::array<double, 8> corner = corners(low, a, b);
+  std::array<double, 8> corner{};
+  if (!corners(low, a, b, corner)) {
+    return far_sample(x, a, b);
+  }
   Vec3 slope;
   const double value = trilinear(corner, {at.x - low[0], at.y - low[1], at.z - low[2]}, slope);
   slope = {slope.x / spacing.x, slope.y / spacing.y, slope.z / spacing.z};

@@ -16,6 +16,7 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
     options.refine.fidelity = 0.01;
     options.refine.each_interface = true;
     options.refine.smooth_labels = true;
+    options.refine.contact_reach_mm = 0.45 * frame.voxel_diagonal_mm();
     options.refine.max_stray_mm = 1.25 * frame.voxel_diagonal_mm();
     options.refine.one_face_rule = false;
     options.refine.topology_rounds = 0;

@@ -216,7 +216,7 @@ class Refiner {
     std::vector<std::uint8_t> bad(points_.size(), 0);
 #pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t v = 0; v < sets_.size(); ++v) {
-      bad[v] = sets_[v].size > 2 && !all_meet_near(image_, points_[v], sets_[v], options_.max_stray_mm) ? 1 : 0;
+      bad[v] = sets_[v].size > 2 && !all_meet_near(image_, points_[v], sets_[v], options_.contact_reach_mm) ? 1 : 0;
     }
     const TetNodes& nodes = result_.mesh.tets.nodes;
 #pragma omp parallel for schedule(static, 1024)

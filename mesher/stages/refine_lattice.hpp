@@ -20,6 +20,7 @@ struct RefineOptions {
   double max_distance_mm = 0;    ///< > 0: refine also where a boundary voxel has no interface vertex so near
   double max_stray_mm = 0;       ///< > 0: refine also where an interface's vertex is farther than this from where
                                  ///< the image has that interface
+  double contact_reach_mm = 0;   ///< with max_stray_mm: materials that meet at a vertex are to meet so near in the image
   bool smooth_labels = false;    ///< a tet takes the material whose smoothed share is largest at its centroid
   bool each_interface = false;   ///< the distance is judged for every interface, not for every material
   double finest_spacing_mm = 0;  ///< the fidelity criterion splits no tet below this lattice spacing, mm;
