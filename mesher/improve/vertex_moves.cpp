@@ -86,13 +86,21 @@ struct VertexMover {
     return largest;
   }
 
-  /// True when x is no farther from the boundaries than allowed, or than the planes at the vertex say it was.
+  /// True when x is near enough to its boundaries, or nearer (in the mean of squares) than the planes say the vertex
+  /// was.
   [[nodiscard]] bool stays_near(const Vec3& x) const {
-    double before = patch.guards.deviation_mm;
+    double before = 0;
     for (const Plane& plane : planes) {
-      before = std::max(before, std::fabs(plane.offset_mm));
+      before += plane.offset_mm * plane.offset_mm;
     }
-    return planes.empty() || deviation(x) <= before;
+    double after = 0;
+    double largest = 0;
+    for (const auto& [inner, outer] : pairs) {
+      const double d = patch.boundary.sample(x, inner, outer).deviation_mm;
+      after += d * d;
+      largest = std::max(largest, d);
+    }
+    return largest <= patch.guards.deviation_mm || after <= before;
   }
 
   /// Energy at x + step, or a negative number when a tet would turn over.

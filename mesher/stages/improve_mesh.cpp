@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <map>
 
 #include "mesher/core/progress.hpp"
 #include "mesher/improve/edge_collapse.hpp"
@@ -68,6 +67,28 @@ void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, ImageBou
   boundary.set_offsets(std::move(offsets));
 }
 
+/// Looks for hosts of the points that have none; vertices that moved to the boundary may be near now.
+void find_hosts(const MaterialMesh& mesh, const std::vector<InterfacePoint>& points, double reach_mm,
+                std::vector<VertexId>& hosts) {
+  std::vector<PointId> without;
+  std::vector<InterfacePoint> wanted;
+  for (PointId p = 0; p < points.size(); ++p) {
+    if (hosts[p] == kNoVertex) {
+      without.push_back(p);
+      wanted.push_back(points[p]);
+    }
+  }
+  if (without.empty()) {
+    return;
+  }
+  const auto sets = vertex_materials(mesh.tets, mesh.materials,
+                                     tet_neighbours(mesh.tets, mesh.points.size()), mesh.points.size());
+  const std::vector<VertexId> found = nearest_hosts(wanted, mesh.points, sets, reach_mm);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    hosts[without[i]] = found[i];
+  }
+}
+
 double degrees(double sine_squared) {
   return sine_squared <= 0 ? 0 : std::asin(std::sqrt(std::min(1.0, sine_squared))) * 180 / std::numbers::pi;
 }
@@ -92,14 +113,15 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   std::vector<VertexId> hosts;
   timed("hosts", [&] {
     points = interface_points(image);
-    hosts = nearest_hosts(points, mesh.points, vertex_materials(mesh.tets, mesh.materials, tet_neighbours(mesh.tets, mesh.points.size()), mesh.points.size()), reach);
+    hosts.assign(points.size(), kNoVertex);
+    find_hosts(mesh, points, reach, hosts);
   });
   report.boundary_points = points.size();
   report.uncovered_points = static_cast<std::size_t>(std::count(hosts.begin(), hosts.end(), kNoVertex));
 
   std::fprintf(stderr, "points %zu uncovered %zu\n", points.size(), report.uncovered_points);
   PatchRules rules{boundary, {options.deviation_diagonals * diagonal, diagonal}, points, reach};
-  const double goal = sine_squared_of_deg(options.min_dihedral_deg);
+  const double goal = sine_squared_of_deg(options.min_dihedral_deg + 1e-3);
   const double good = sine_squared_of_deg(35);
   const double threshold = sine_squared_of_deg(options.decimate_dihedral_deg);
   int round = 0;
@@ -131,7 +153,9 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       relax_vertices(patch, relax);
       pull_strays(patch, relax);
     });
+    timed("hosts", [&] { find_hosts(mesh, points, reach, hosts); });
     timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
+    std::fprintf(stderr, "without host %zd\n", std::count(hosts.begin(), hosts.end(), kNoVertex));
   }
   for (int i = 0; i < options.decimation_rounds; ++i) {
     in_patches("decimate", [&](Patch& patch) {
@@ -147,9 +171,14 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       remove_edges(patch, good);
       flatten_interfaces(patch, threshold);
     });
+    timed("hosts", [&] { find_hosts(mesh, points, reach, hosts); });
     timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
+    std::fprintf(stderr, "without host %zd\n", std::count(hosts.begin(), hosts.end(), kNoVertex));
   }
-  for (int i = 0; i < options.repair_rounds; ++i) {
+  for (int i = 0; i < options.repair_rounds && worst_sine_squared(mesh) < goal; ++i) {
+    // What is left is rare and stuck; from round to round it may give up a little more of the distances.
+    rules.guards.deviation_mm = std::min(0.45, options.deviation_diagonals + 0.05 * i) * diagonal;
+    rules.reach_mm = std::min(1.05, options.reach_diagonals + 0.05 * i) * diagonal;
     in_patches("repair", [&](Patch& patch) {
       for (int k = 0; k < 3; ++k) {
         climb_vertices(patch, goal);
@@ -158,17 +187,6 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       }
       climb_vertices(patch, goal);
     });
-  }
-  {
-    const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
-    const auto sets = vertex_materials(mesh.tets, mesh.materials, nb, mesh.points.size());
-    std::vector<double> dev(mesh.points.size(), -1); std::vector<std::pair<int,int>> pr(mesh.points.size());
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
-        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
-        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; double d = boundary.sample(mesh.points[v], mesh.materials[t], o).deviation_mm; if (d > dev[v]) { dev[v] = d; pr[v] = {mesh.materials[t], o}; } } }
-    std::map<int, int> by, all; int shown = 0;
-    for (VertexId v = 0; v < dev.size(); ++v) { if (dev[v] >= 0) ++all[sets[v].size]; if (dev[v] > 0.5 * diagonal) { ++by[sets[v].size]; if (shown++ % 40 == 0) { Vec3 x = mesh.points[v]; auto s = image.frame.spacing_mm; std::fprintf(stderr, "stuck pair %d %d dev %.2f set", pr[v].first, pr[v].second, dev[v] / diagonal); for (int i = 0; i < sets[v].size; ++i) std::fprintf(stderr, " %d", sets[v].ids[i]); std::fprintf(stderr, " at %.2f %.2f %.2f:", x.x / s.x, x.y / s.y, x.z / s.z); for (int dz = -1; dz <= 1; ++dz) { for (int dy = -1; dy <= 1; ++dy) for (int dx = -1; dx <= 1; ++dx) std::fprintf(stderr, " %d", image.at_or_background(std::lround(x.x/s.x)+dx, std::lround(x.y/s.y)+dy, std::lround(x.z/s.z)+dz)); std::fprintf(stderr, " |"); } std::fprintf(stderr, "\n"); } } }
-    for (auto [k, c] : by) std::fprintf(stderr, "set size %d: %d of %d\n", k, c, all[k]);
   }
   drop_unused_vertices(mesh);
   report.tets_after = mesh.tets.size();

@@ -23,7 +23,7 @@ struct ImproveOptions {
   double deviation_diagonals = 0.15;  ///< facets stay so near to the boundary, voxel diagonals
   double surface_weight = 1000;        ///< pull to the boundary against the tets' shape
   int decimation_rounds = 3;
-  int repair_rounds = 3;
+  int repair_rounds = 8;  ///< at most; they end when the goal is reached
   ImageBoundaryOptions boundary;
 };
 

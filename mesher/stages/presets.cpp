@@ -12,7 +12,7 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
   MeshImageOptions options;
   if (name == "quality") {
     options.clean.region_tolerance = 0;
-    options.refine.max_distance_mm = frame.voxel_diagonal_mm();
+    options.refine.max_distance_mm = 0.9 * frame.voxel_diagonal_mm();
     options.refine.fidelity = 0.01;
     options.refine.each_interface = true;
     options.refine.smooth_labels = true;
@@ -25,6 +25,7 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
     options.topology.enabled = true;
     options.topology.one_face_rule = false;
     options.topology.image_passes = 4;
+    options.topology.small_component = 0;
     options.deform.iterations = 0;
     options.improve.enabled = true;
     options.deform.displacement.target_position = TargetPosition::voxel_faces;
