@@ -28,7 +28,7 @@ struct DeformCommand {
 };
 
 MeshImageOptions options_of(const DeformCommand& command, const LabelImage& image) {
-  MeshImageOptions options = preset_options(command.preset, image.frame);
+  MeshImageOptions options = preset_options(command.preset, image.frame, true);
   for (const auto& apply : command.overrides) {
     apply(options);
   }

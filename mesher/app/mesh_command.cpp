@@ -50,7 +50,11 @@ void run(MeshCommand& command) {
   LabelImage image = read_label_image(command.image);
   command.run.frame = image.frame;
   auto& options = command.run.options;
-  options = preset_options(command.run.preset, image.frame);
+  MeshImageOptions asked;
+  for (const auto& apply : command.overrides) {
+    apply(asked);
+  }
+  options = preset_options(command.run.preset, image.frame, asked.mixed);
   for (const auto& apply : command.overrides) {
     apply(options);
   }
@@ -97,7 +101,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   mesh->add_option("image", command->image, "label image: NIfTI, NRRD, MHA/MHD or INRIMAGE")->required();
   mesh->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
   mesh->add_option("--preset", command->run.preset,
-                   "quality: our best so far; paper: the published method [quality]")
+                   "quality: our best; paper: the published method [quality]")
       ->check(CLI::IsMember(preset_names()));
   add_cleaning_options(*mesh, command->overrides);
   add_lattice_options(*mesh, command->overrides);

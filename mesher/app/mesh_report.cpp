@@ -25,6 +25,11 @@ nlohmann::json options_json(const RunDescription& run, const MeshImageReport& re
                             {"seed", o.clean.seed},
                             {"threads", run.threads}};
   options.update(deformation_options_json(o));
+  if (o.improve.enabled) {
+    options["min_dihedral_deg"] = o.improve.min_dihedral_deg;
+    options["decimation_rounds"] = o.improve.decimation_rounds;
+    options["deviation_diagonals"] = o.improve.deviation_diagonals;
+  }
   return options;
 }
 
@@ -137,6 +142,21 @@ nlohmann::json deformation_json(const DeformReport& deform) {
           {"iterations", iterations}};
 }
 
+nlohmann::json improvement_json(const ImproveReport& improve) {
+  nlohmann::json parts = nlohmann::json::object();
+  for (const auto& [name, seconds] : improve.part_seconds) {
+    parts[name] = seconds;
+  }
+  return {{"rounds", improve.rounds},
+          {"tets_before", improve.tets_before},
+          {"tets_after", improve.tets_after},
+          {"min_dihedral_before_deg", improve.min_dihedral_before_deg},
+          {"min_dihedral_after_deg", improve.min_dihedral_after_deg},
+          {"boundary_points", improve.boundary_points},
+          {"uncovered_points", improve.uncovered_points},
+          {"seconds", parts}};
+}
+
 nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame) {
   const double voxel_mm3 = frame.spacing_mm.x * frame.spacing_mm.y * frame.spacing_mm.z;
   nlohmann::json labels = nlohmann::json::array();
@@ -179,6 +199,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"materials", fidelity_json(report)},
           {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
           {"deformation", deformation_json(report.deform)},
+          {"improvement", run.options.improve.enabled ? improvement_json(report.improve) : nlohmann::json()},
           {"warnings", report.warnings},
           {"seconds", {{"total", report.seconds}, {"cpu", process_cpu_seconds()}, {"stages", stages}}},
           {"peak_rss_bytes", process_peak_rss_bytes()}};

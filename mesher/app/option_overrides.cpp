@@ -75,9 +75,11 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
                        "edge of the coarsest lattice cubes, mm [ten times the mean voxel spacing]",
                        [](MeshImageOptions& o) -> double& { return o.lattice_spacing_mm; })
       ->check(CLI::PositiveNumber);
-  add_override<double>(app, overrides, "--fidelity",
-                       "F: refine a material while its F1 or F2 is below; in (0,1] [0.95]",
-                       [](MeshImageOptions& o) -> double& { return o.refine.fidelity; })
+  add_override<double>(
+      app, overrides, "--fidelity",
+      "F: refine a material while its F1 or F2 is below; in (0,1] [paper: 0.95, quality: 0.01, the distance "
+      "decides]",
+      [](MeshImageOptions& o) -> double& { return o.refine.fidelity; })
       ->check(CLI::Range(1e-6, 1.0));
   add_override<double>(app, overrides, "--finest-spacing",
                        "the fidelity criterion makes the lattice no finer than this, mm; --max-distance may "
@@ -85,11 +87,16 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
                        "[the smallest voxel spacing, but half the geometric mean at least]",
                        [](MeshImageOptions& o) -> double& { return o.refine.finest_spacing_mm; })
       ->check(CLI::PositiveNumber);
-  add_override<double>(app, overrides, "--max-distance",
-                       "refine also where a boundary voxel has no interface vertex within so many mm; 0: off "
-                       "[quality: two voxel "
-                       "diagonals, paper: off]",
-                       [](MeshImageOptions& o) -> double& { return o.refine.max_distance_mm; })
+  app.add_option_function<double>(
+         "--max-distance",
+         [&overrides](const double& distance_mm) {
+           overrides.emplace_back([distance_mm](MeshImageOptions& o) {
+             o.refine.max_distance_mm = distance_mm;
+             o.improve.reach_mm = distance_mm;
+           });
+         },
+         "every boundary voxel has an interface vertex within so many mm: the lattice is refined for it, the "
+         "improvement keeps it; 0: off [quality: 0.9 voxel diagonals, paper: off]")
       ->check(CLI::NonNegativeNumber);
   app.add_flag_callback(
       "--topology-checks",
@@ -146,9 +153,17 @@ void add_deformation_options(CLI::App& app, Overrides& overrides) {
   add_override<double>(app, overrides, "--poisson", "Poisson's ratio, in [0, 0.5) [0.45]",
                        [](MeshImageOptions& o) -> double& { return o.deform.elasticity.all.poisson; })
       ->check(CLI::Range(0.0, 0.499));
-  add_override<double>(app, overrides, "--min-dihedral",
-                       "smallest dihedral angle that the deformation keeps, degrees [5]",
-                       [](MeshImageOptions& o) -> double& { return o.deform.quality.min_dihedral_deg; })
+  app.add_option_function<double>(
+         "--min-dihedral",
+         [&overrides](const double& angle_deg) {
+           overrides.emplace_back([angle_deg](MeshImageOptions& o) {
+             o.improve.min_dihedral_deg = angle_deg;
+             o.deform.quality.min_dihedral_deg = angle_deg;
+           });
+         },
+         "smallest dihedral angle, degrees: the goal of the improvement [quality: 20], what the deformation "
+         "keeps "
+         "[paper: 5]")
       ->check(CLI::Range(0.0, 60.0));
   add_override<double>(
       app, overrides, "--min-scaled-jacobian",
@@ -160,24 +175,17 @@ void add_deformation_options(CLI::App& app, Overrides& overrides) {
 
 void add_improvement_options(CLI::App& app, Overrides& overrides) {
   app.add_flag_callback(
-      "--improve", [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.improve.enabled = true; }); },
-      "improve and thin out the mesh after the deformation");
-  add_override<double>(app, overrides, "--max-stray", "mm",
-                       [](MeshImageOptions& o) -> double& { return o.refine.max_stray_mm; });
-  add_override<double>(app, overrides, "--goal", "improvement: no dihedral angle below this, degrees [20]",
-                       [](MeshImageOptions& o) -> double& { return o.improve.min_dihedral_deg; });
-  add_override<double>(app, overrides, "--decimate-dihedral", "collapses leave no angle below this, degrees [20]",
-                       [](MeshImageOptions& o) -> double& { return o.improve.decimate_dihedral_deg; });
-  add_override<double>(app, overrides, "--cover", "reach of surface vertices, voxel diagonals [1]",
-                       [](MeshImageOptions& o) -> double& { return o.improve.reach_diagonals; });
-  add_override<double>(app, overrides, "--deviation", "of facets, voxel diagonals [.25]",
-                       [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; });
-  add_override<double>(app, overrides, "--surface-weight", "pull to the boundary [30]",
-                       [](MeshImageOptions& o) -> double& { return o.improve.surface_weight; });
-  add_override<int>(app, overrides, "--decimation-rounds", "rounds [3]",
-                    [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; });
-  add_override<int>(app, overrides, "--repair-rounds", "rounds [3]",
-                    [](MeshImageOptions& o) -> int& { return o.improve.repair_rounds; });
+      "--no-improve",
+      [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.improve.enabled = false; }); },
+      "preset quality: stop before the improvement");
+  add_override<int>(app, overrides, "--decimation-rounds",
+                    "improvement: rounds that thin the mesh out; 0: as many tets as before [3]",
+                    [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; })
+      ->check(CLI::Range(0, 20));
+  add_override<double>(app, overrides, "--deviation",
+                       "improvement: facets stay so near to the boundary, voxel diagonals [0.15]",
+                       [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; })
+      ->check(CLI::Range(0.01, 2.0));
 }
 
 void add_mixed_options(CLI::App& app, Overrides& overrides) {

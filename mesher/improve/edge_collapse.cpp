@@ -86,7 +86,8 @@ class EdgeCollapser {
     }
     mesh_.facets(u, patch_.star, patch_.facets);
     surface_neighbours(patch_.facets, near_u_);
-    const auto ends = std::count_if(near_u_.begin(), near_u_.end(), [](const auto& s) { return s.facets > 2; });
+    const auto ends =
+        std::count_if(near_u_.begin(), near_u_.end(), [](const auto& s) { return s.facets > 2; });
     const bool odd = std::any_of(near_u_.begin(), near_u_.end(), [](const auto& s) { return s.facets < 2; });
     return !odd && (on_curve_ ? ends == 2 : ends == 0 && is_one_fan());
   }
@@ -97,7 +98,8 @@ class EdgeCollapser {
     VertexId at = facets.front().second;
     std::size_t steps = 1;
     for (std::size_t used = 0; at != facets.front().first && steps <= facets.size(); ++steps) {
-      const auto next = std::find_if(facets.begin(), facets.end(), [&](const FacetAt& f) { return f.first == at; });
+      const auto next =
+          std::find_if(facets.begin(), facets.end(), [&](const FacetAt& f) { return f.first == at; });
       if (next == facets.end()) {
         return false;
       }
@@ -274,9 +276,8 @@ class EdgeCollapser {
       }
     }
     const bool near_facets =
-        on_facets_ || std::any_of(patch_.around.begin(), patch_.around.end(), [&](VertexId w) {
-          return !mesh_.locked(w) && patch_.on_boundary(w);
-        });
+        on_facets_ || std::any_of(patch_.around.begin(), patch_.around.end(),
+                                  [&](VertexId w) { return !mesh_.locked(w) && patch_.on_boundary(w); });
     if (!mesh_.replace(patch_.star, patch_.fresh)) {
       return false;
     }

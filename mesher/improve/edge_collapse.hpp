@@ -9,13 +9,13 @@ struct CollapseOptions {
   double threshold_sine_squared = 0.1;  ///< new tets are no worse than this
   double longest_growth = 2.5;          ///< new edges are no longer than so many times the mean old one
   double longest_mm = 0;                ///< nor than this; 0: no such limit
-  bool only_bad = false;                ///< only vertices of tets below the threshold, where that lifts the worst
+  bool only_bad = false;  ///< only vertices of tets below the threshold, where that lifts the worst
 };
 
 /// One pass over all vertices in order: each is drawn onto the neighbour that leaves the best worst angle,
-/// if every guard allows one. A vertex on an interface is drawn along it, one where three materials meet along
-/// that curve; boundary voxels keep hosts, facets stay near the boundary and do not fold, every label's surface
-/// stays a manifold of the same shape. Returns the number of vertices removed.
+/// if every guard allows one. A vertex on an interface is drawn along it, one where three materials meet
+/// along that curve; boundary voxels keep hosts, facets stay near the boundary and do not fold, every label's
+/// surface stays a manifold of the same shape. Returns the number of vertices removed.
 std::size_t collapse_edges(Patch& patch, const CollapseOptions& options);
 
 }  // namespace cbc3d

@@ -29,13 +29,15 @@ class EdgeRemover {
     return (sectors_.empty() || retriangulate(before)) && (!on_facets_ || facets_allow(false)) && commit();
   }
 
-  /// Flips an edge of an interface where that makes the interface flatter and leaves no angle below the floor.
+  /// Flips an edge of an interface where that makes the interface flatter and leaves no angle below the
+  /// floor.
   bool try_flatten(VertexId a, VertexId b, double floor) {
     if (!load(a, b) || !on_facets_) {
       return false;
     }
     const double before = worst_of_ring();
-    return (sectors_.empty() || retriangulate(std::min(before * 0.999, floor))) && facets_allow(true) && commit();
+    return (sectors_.empty() || retriangulate(std::min(before * 0.999, floor))) && facets_allow(true) &&
+           commit();
   }
 
  private:
@@ -79,8 +81,8 @@ class EdgeRemover {
     return true;
   }
 
-  /// Splits the ring at its facets; false where the edge must stay. A material with a single tet at the edge (an
-  /// ear, with two faces on the interface) gives that tet up to the other material or to the outside.
+  /// Splits the ring at its facets; false where the edge must stay. A material with a single tet at the edge
+  /// (an ear, with two faces on the interface) gives that tet up to the other material or to the outside.
   bool find_sectors() {
     sectors_.clear();
     ear_ = false;

@@ -55,7 +55,8 @@ double ImageBoundary::clamped(double value, const std::array<signed char, 64>& s
   return own * std::max(own * value, hold);
 }
 
-bool ImageBoundary::corners(const Index3& low, MaterialId a, MaterialId b, std::array<double, 8>& corner) const {
+bool ImageBoundary::corners(const Index3& low, MaterialId a, MaterialId b,
+                            std::array<double, 8>& corner) const {
   std::array<signed char, 64> side{};
   const Index3& size = image_.frame.size;
   const bool inside = low[0] >= 1 && low[1] >= 1 && low[2] >= 1 && low[0] + 2 < size[0] &&
@@ -108,8 +109,9 @@ MaterialId ImageBoundary::material_at(const Vec3& x) const {
   std::array<MaterialId, 8> candidates{};
   std::size_t count = 0;
   for (std::size_t c = 0; c < 8; ++c) {
-    corner[c] = image_.at_or_background(low[0] + static_cast<int>(c & 1), low[1] + static_cast<int>(c >> 1 & 1),
-                                        low[2] + static_cast<int>(c >> 2));
+    corner[c] =
+        image_.at_or_background(low[0] + static_cast<int>(c & 1), low[1] + static_cast<int>(c >> 1 & 1),
+                                low[2] + static_cast<int>(c >> 2));
     if (std::find(candidates.begin(), candidates.begin() + count, corner[c]) == candidates.begin() + count) {
       candidates[count++] = corner[c];
     }
@@ -118,7 +120,8 @@ MaterialId ImageBoundary::material_at(const Vec3& x) const {
   for (std::size_t i = 1; i < count; ++i) {  // pairwise, the winner stays
     std::array<double, 8> field{};
     Vec3 slope;
-    if (corners(low, best, candidates[i], field) && trilinear(field, {at.x - low[0], at.y - low[1], at.z - low[2]}, slope) < 0) {
+    if (corners(low, best, candidates[i], field) &&
+        trilinear(field, {at.x - low[0], at.y - low[1], at.z - low[2]}, slope) < 0) {
       best = candidates[i];
     }
   }

@@ -34,8 +34,8 @@ class ImageBoundary : public Boundary {
   [[nodiscard]] const std::vector<double>& offsets() const { return offset_mm_; }
 
  private:
-  /// The smoothed and clamped field at the eight voxel centres from `low` on; false where a or b is in none of the
-  /// 4x4x4 voxels round them, so that what the field says there of a third material means nothing.
+  /// The smoothed and clamped field at the eight voxel centres from `low` on; false where a or b is in none
+  /// of the 4x4x4 voxels round them, so that what the field says there of a third material means nothing.
   bool corners(const Index3& low, MaterialId a, MaterialId b, std::array<double, 8>& corner) const;
   [[nodiscard]] double clamped(double value, const std::array<signed char, 64>& side, int at) const;
   [[nodiscard]] BoundarySample far_sample(const Vec3& x, MaterialId a, MaterialId b) const;

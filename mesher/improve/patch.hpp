@@ -9,8 +9,9 @@ namespace cbc3d {
 
 /// What no operation may worsen beyond.
 struct Guards {
-  double deviation_mm = 0.3;  ///< vertices, edges and centres of facets from the boundary, unless farther before
-  double scale_mm = 1;        ///< distances from the boundary count in this unit
+  double deviation_mm =
+      0.3;              ///< vertices, edges and centres of facets from the boundary, unless farther before
+  double scale_mm = 1;  ///< distances from the boundary count in this unit
 };
 
 struct Patch {

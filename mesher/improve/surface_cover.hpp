@@ -1,5 +1,5 @@
-// Which surface vertex stands for which boundary voxel: the guard that keeps every part of the image's boundary
-// within a distance of the mesh's surface vertices while the mesh is thinned out.
+// Which surface vertex stands for which boundary voxel: the guard that keeps every part of the image's
+// boundary within a distance of the mesh's surface vertices while the mesh is thinned out.
 //
 // Points and hosts are those of interface_points.hpp.
 #pragma once
@@ -26,8 +26,8 @@ class SurfaceCover {
   void resize(std::size_t vertices) { first_.resize(vertices, kNoPoint); }
   void add(VertexId host, PointId point);
 
-  /// True when every point of v finds a host once v is at `to` (or gone, when `to` is null): v itself or one of
-  /// `others`, which are at their places in `mesh` and whose materials are `sets`. What has to change is
+  /// True when every point of v finds a host once v is at `to` (or gone, when `to` is null): v itself or one
+  /// of `others`, which are at their places in `mesh` and whose materials are `sets`. What has to change is
   /// remembered for commit.
   bool can_release(VertexId v, const Vec3* to, std::span<const VertexId> others, const TetComplex& mesh,
                    const std::vector<MaterialSet>& sets);

@@ -206,7 +206,8 @@ void TetComplex::collect_faces(std::span<const TetId> old, std::span<const Fresh
 }
 
 bool TetComplex::is_elsewhere(const Face& face, std::span<const TetId> old) const {
-  const auto free = std::find_if(face.begin(), face.end(), [&](VertexId v) { return !locked(v) && in_use(v); });
+  const auto free =
+      std::find_if(face.begin(), face.end(), [&](VertexId v) { return !locked(v) && in_use(v); });
   if (free == face.end()) {
     return false;
   }
@@ -228,7 +229,8 @@ bool TetComplex::faces_fit(std::span<const TetId> old) const {
     if (same > 2 || (fresh && is_elsewhere(faces_[i].key, old))) {
       return false;
     }
-    if (same == 2 && fresh && locked(faces_[i].key[0]) && locked(faces_[i].key[1]) && locked(faces_[i].key[2])) {
+    if (same == 2 && fresh && locked(faces_[i].key[0]) && locked(faces_[i].key[1]) &&
+        locked(faces_[i].key[2])) {
       return false;  // another patch might make the same face
     }
     i += same;

@@ -87,8 +87,8 @@ class TetComplex {
  private:
   using Face = std::array<VertexId, 3>;
   struct OpenFace {
-    Face key;          // sorted
-    TetId tet;         // or the index of a fresh one
+    Face key;           // sorted
+    TetId tet;          // or the index of a fresh one
     std::uint8_t node;  // opposite to the face
     bool fresh;
   };

@@ -1,6 +1,7 @@
 // Shape of one tet, as the improver sees it: the worst dihedral angle for guards, a smooth energy for moves.
 //
-// Notation: sine_squared  the smallest squared sine of a tet's six dihedral angles, so that 20 and 160 degrees
+// Notation: sine_squared  the smallest squared sine of a tet's six dihedral angles, so that 20 and 160
+// degrees
 //           are equally bad; -1 for a tet without volume or turned inside out.
 #pragma once
 
@@ -29,8 +30,8 @@ inline double min_sine_squared(const Vec3& a, const Vec3& b, const Vec3& c, cons
   if (!(det > 0)) {
     return -1;
   }
-  // With face normals n_i, n_j of length twice the face area, |n_i x n_j| = det * (length of the edge that the
-  // faces share), so sin^2 = det^2 e^2 / (|n_i|^2 |n_j|^2).
+  // With face normals n_i, n_j of length twice the face area, |n_i x n_j| = det * (length of the edge that
+  // the faces share), so sin^2 = det^2 e^2 / (|n_i|^2 |n_j|^2).
   const Vec3 n1 = ac.cross(ad);
   const Vec3 n2 = ad.cross(ab);
   const Vec3 bc = c - b;

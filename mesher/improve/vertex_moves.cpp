@@ -86,8 +86,8 @@ struct VertexMover {
     return largest;
   }
 
-  /// True when x is near enough to its boundaries, or nearer (in the mean of squares) than the planes say the vertex
-  /// was.
+  /// True when x is near enough to its boundaries, or nearer (in the mean of squares) than the planes say the
+  /// vertex was.
   [[nodiscard]] bool stays_near(const Vec3& x) const {
     double before = 0;
     for (const Plane& plane : planes) {
@@ -146,9 +146,7 @@ struct VertexMover {
     return true;
   }
 
-  bool strays(VertexId v) {
-    return load(v) && deviation(patch.mesh.point(v)) > patch.guards.deviation_mm;
-  }
+  bool strays(VertexId v) { return load(v) && deviation(patch.mesh.point(v)) > patch.guards.deviation_mm; }
 
   bool relax(VertexId v, const RelaxOptions& options) {
     if (!load(v)) {
@@ -243,8 +241,8 @@ struct VertexMover {
   bool climb_step(VertexId v, double length, double limit, double& best) {
     const Vec3 x = patch.mesh.point(v);
     const Vec3 up = ascent(x, length);
-    const std::array<Vec3, 7> directions = {up,         Vec3{1, 0, 0},  Vec3{-1, 0, 0}, Vec3{0, 1, 0},
-                                            Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}};
+    const std::array<Vec3, 7> directions = {
+        up, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}};
     for (const Vec3& direction : directions) {
       const Vec3 to = x + length * direction;
       const double after = worst(to, best);

@@ -24,10 +24,10 @@
 namespace cbc3d {
 
 struct TopologyOptions {
-  bool enabled = false;           ///< --topology-checks
-  bool one_face_rule = true;      ///< kept on the way (RefineOptions::one_face_rule)
-  int image_passes = 0;           ///< first so many passes in which the image at a non-manifold vertex decides: its
-                                  ///< whole star becomes what the voxel there is
+  bool enabled = false;       ///< --topology-checks
+  bool one_face_rule = true;  ///< kept on the way (RefineOptions::one_face_rule)
+  int image_passes = 0;  ///< first so many passes in which the image at a non-manifold vertex decides: its
+                         ///< whole star becomes what the voxel there is
   double small_component = 0.01;  ///< a component below this share of its label's volume is relabelled
 };
 

@@ -50,9 +50,9 @@ class BoundaryCoverage {
   std::vector<std::size_t> boundary_;  // offsets of the boundary voxels, ascending
 };
 
-/// The same question asked for every interface: a boundary voxel with face neighbours of several materials wants a
-/// vertex where its own and that material meet for each of them. A gap of background between two labels that the
-/// mesh has closed shows here, and nowhere in the coverage of either label.
+/// The same question asked for every interface: a boundary voxel with face neighbours of several materials
+/// wants a vertex where its own and that material meet for each of them. A gap of background between two
+/// labels that the mesh has closed shows here, and nowhere in the coverage of either label.
 class InterfaceCoverage {
  public:
   explicit InterfaceCoverage(const LabelImage& image);

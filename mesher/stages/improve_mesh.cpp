@@ -19,8 +19,8 @@ double worst_sine_squared(const MaterialMesh& mesh) {
 #pragma omp parallel for schedule(static) reduction(min : worst)
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& n = mesh.tets[t];
-    worst = std::min(worst, min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
-                                             mesh.points[n[3]]));
+    worst = std::min(
+        worst, min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]));
   }
   return worst;
 }
@@ -42,8 +42,7 @@ Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials) {
       if (neighbours[t][f] == kNoTet || mesh.materials[neighbours[t][f]] != m) {
         const auto& face = kTetFace[f];
         const Vec3& p = mesh.points[n[face[0]]];
-        extent.area_mm2[m] +=
-            0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
+        extent.area_mm2[m] += 0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
       }
     }
   }
@@ -81,8 +80,8 @@ void find_hosts(const MaterialMesh& mesh, const std::vector<InterfacePoint>& poi
   if (without.empty()) {
     return;
   }
-  const auto sets = vertex_materials(mesh.tets, mesh.materials,
-                                     tet_neighbours(mesh.tets, mesh.points.size()), mesh.points.size());
+  const auto sets = vertex_materials(mesh.tets, mesh.materials, tet_neighbours(mesh.tets, mesh.points.size()),
+                                     mesh.points.size());
   const std::vector<VertexId> found = nearest_hosts(wanted, mesh.points, sets, reach_mm);
   for (std::size_t i = 0; i < found.size(); ++i) {
     hosts[without[i]] = found[i];
@@ -93,105 +92,150 @@ double degrees(double sine_squared) {
   return sine_squared <= 0 ? 0 : std::asin(std::sqrt(std::min(1.0, sine_squared))) * 180 / std::numbers::pi;
 }
 
+/// The schedule: rounds in patches, and between them what needs the whole mesh.
+class Improver {
+ public:
+  Improver(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
+           const std::function<void(int)>& on_round)
+      : mesh_(mesh),
+        image_(image),
+        options_(options),
+        on_round_(on_round),
+        diagonal_mm_(image.frame.voxel_diagonal_mm()),
+        reach_mm_(options.reach_mm > 0 ? options.reach_mm : 0.9 * diagonal_mm_),
+        goal_(sine_squared_of_deg(options.min_dihedral_deg + kMarginDeg)),
+        boundary_(image, options.boundary),
+        relax_{options.surface_weight, 0.5, 0.01 * diagonal_mm_} {}
+
+  ImproveReport run() {
+    report_.tets_before = mesh_.tets.size();
+    report_.min_dihedral_before_deg = degrees(worst_sine_squared(mesh_));
+    timed("hosts", [&] {
+      points_ = interface_points(image_);
+      hosts_.assign(points_.size(), kNoVertex);
+    });
+    find_hosts_and_volumes();
+    for (int i = 0; i < 2; ++i) {
+      fit();
+    }
+    for (int i = 0; i < options_.decimation_rounds; ++i) {
+      decimate();
+    }
+    for (int i = 0; i < options_.repair_rounds && worst_sine_squared(mesh_) < goal_; ++i) {
+      repair(i);
+    }
+    drop_unused_vertices(mesh_);
+    order_for_locality(mesh_);
+    finish();
+    return std::move(report_);
+  }
+
+ private:
+  static constexpr double kMarginDeg = 1e-3;  // rounding when the mesh is written must not undo the goal
+  static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
+  static constexpr double kLongestGrowth = 2.5;
+
+  /// Vertices to the boundary, tets into shape.
+  void fit() {
+    in_patches("fitting", reach_mm_, options_.deviation_diagonals, [this](Patch& patch) {
+      relax_vertices(patch, relax_);
+      relax_vertices(patch, relax_);
+      remove_edges(patch, sine_squared_of_deg(kGoodDeg));
+      flatten_interfaces(patch, goal_);
+      relax_vertices(patch, relax_);
+      pull_strays(patch, relax_);
+    });
+    find_hosts_and_volumes();
+  }
+
+  void decimate() {
+    const CollapseOptions collapse{goal_, kLongestGrowth, 0, false};
+    in_patches("decimation", reach_mm_, options_.deviation_diagonals, [&](Patch& patch) {
+      collapse_edges(patch, collapse);
+      remove_edges(patch, sine_squared_of_deg(kGoodDeg));
+      flatten_interfaces(patch, goal_);
+      relax_vertices(patch, relax_);
+      relax_vertices(patch, relax_);
+      flatten_interfaces(patch, goal_);
+      collapse_edges(patch, collapse);
+      relax_vertices(patch, relax_);
+      pull_strays(patch, relax_);
+      remove_edges(patch, sine_squared_of_deg(kGoodDeg));
+      flatten_interfaces(patch, goal_);
+    });
+    find_hosts_and_volumes();
+  }
+
+  /// The worst angles. They are rare and stuck: from round to round they may cost a little more distance.
+  void repair(int round) {
+    const double reach_mm =
+        std::max(reach_mm_, std::min(1.05 * diagonal_mm_, reach_mm_ + 0.05 * round * diagonal_mm_));
+    const double deviation =
+        std::max(options_.deviation_diagonals, std::min(0.45, options_.deviation_diagonals + 0.05 * round));
+    in_patches("repair", reach_mm, deviation, [this](Patch& patch) {
+      for (int turn = 0; turn < 3; ++turn) {
+        climb_vertices(patch, goal_);
+        remove_edges(patch, goal_);
+        collapse_edges(patch, {goal_, kLongestGrowth, 0, true});
+      }
+      climb_vertices(patch, goal_);
+    });
+  }
+
+  template <typename Improve>
+  void in_patches(const std::string& name, double reach_mm, double deviation_diagonals,
+                  const Improve& improve) {
+    on_round_(round_);
+    const PatchRules rules{boundary_, {deviation_diagonals * diagonal_mm_, diagonal_mm_}, points_, reach_mm};
+    timed(name, [&] { improve_in_patches(mesh_, hosts_, rules, round_++, improve); });
+  }
+
+  void find_hosts_and_volumes() {
+    timed("hosts", [this] { find_hosts(mesh_, points_, reach_mm_, hosts_); });
+    if (round_ > 0) {
+      timed("volumes", [this] { correct_volumes(mesh_, image_, boundary_); });
+    }
+  }
+
+  template <typename Part>
+  void timed(const std::string& name, const Part& part) {
+    const Stopwatch watch;
+    part();
+    const auto known = std::find_if(report_.part_seconds.begin(), report_.part_seconds.end(),
+                                    [&](const auto& p) { return p.first == name; });
+    if (known == report_.part_seconds.end()) {
+      report_.part_seconds.emplace_back(name, watch.seconds());
+    } else {
+      known->second += watch.seconds();
+    }
+  }
+
+  void finish() {
+    report_.boundary_points = points_.size();
+    report_.uncovered_points = static_cast<std::size_t>(std::count(hosts_.begin(), hosts_.end(), kNoVertex));
+    report_.rounds = round_;
+    report_.tets_after = mesh_.tets.size();
+    report_.min_dihedral_after_deg = degrees(worst_sine_squared(mesh_));
+  }
+
+  MaterialMesh& mesh_;
+  const LabelImage& image_;
+  const ImproveOptions& options_;
+  const std::function<void(int)>& on_round_;
+  double diagonal_mm_, reach_mm_, goal_;
+  ImageBoundary boundary_;
+  RelaxOptions relax_;
+  std::vector<InterfacePoint> points_;
+  std::vector<VertexId> hosts_;
+  int round_ = 0;
+  ImproveReport report_;
+};
+
 }  // namespace
 
 ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
                            const std::function<void(int round)>& on_round) {
-  ImproveReport report;
-  report.tets_before = mesh.tets.size();
-  report.min_dihedral_before_deg = degrees(worst_sine_squared(mesh));
-  const double diagonal = image.frame.voxel_diagonal_mm();
-  ImageBoundary boundary(image, options.boundary);
-  const double reach = options.reach_diagonals * diagonal;
-  const auto timed = [&](const std::string& name, const auto& part) {
-    const Stopwatch watch;
-    part();
-    report.part_seconds.emplace_back(name, watch.seconds());
-  };
-
-  std::vector<InterfacePoint> points;
-  std::vector<VertexId> hosts;
-  timed("hosts", [&] {
-    points = interface_points(image);
-    hosts.assign(points.size(), kNoVertex);
-    find_hosts(mesh, points, reach, hosts);
-  });
-  report.boundary_points = points.size();
-  report.uncovered_points = static_cast<std::size_t>(std::count(hosts.begin(), hosts.end(), kNoVertex));
-
-  std::fprintf(stderr, "points %zu uncovered %zu\n", points.size(), report.uncovered_points);
-  PatchRules rules{boundary, {options.deviation_diagonals * diagonal, diagonal}, points, reach};
-  const double goal = sine_squared_of_deg(options.min_dihedral_deg + 1e-3);
-  const double good = sine_squared_of_deg(35);
-  const double threshold = sine_squared_of_deg(options.decimate_dihedral_deg);
-  int round = 0;
-  const auto in_patches = [&](const std::string& name, const auto& improve) {
-    on_round(round);
-    timed(name, [&] { improve_in_patches(mesh, hosts, rules, round++, improve); });
-    {
-      const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
-      std::vector<double> dev(mesh.points.size(), -1);
-      for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
-        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
-        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; dev[v] = std::max(dev[v], boundary.sample(mesh.points[v], mesh.materials[t], o).deviation_mm); }
-      }
-      std::size_t c[5] = {0,0,0,0,0};
-      for (double d : dev) { if (d >= 0) ++c[0]; d /= diagonal; if (d > .16) ++c[1]; if (d > .5) ++c[2]; if (d > 1) ++c[3]; if (d > 1e9) ++c[4]; }
-      std::fprintf(stderr, "   surface vertices %zu, >.16: %zu >.5: %zu >1: %zu inf: %zu\n", c[0], c[1], c[2], c[3], c[4]);
-    }
-    std::fprintf(stderr, "%s %zu tets %.2f deg %.2f s\n", name.c_str(), mesh.tets.size(),
-                 degrees(worst_sine_squared(mesh)), report.part_seconds.back().second);
-  };
-
-  const RelaxOptions relax{options.surface_weight, 0.5, 0.01 * diagonal};
-  for (int i = 0; i < 2; ++i) {
-    in_patches("relax", [&](Patch& patch) {
-      relax_vertices(patch, relax);
-      relax_vertices(patch, relax);
-      remove_edges(patch, good);
-      flatten_interfaces(patch, threshold);
-      relax_vertices(patch, relax);
-      pull_strays(patch, relax);
-    });
-    timed("hosts", [&] { find_hosts(mesh, points, reach, hosts); });
-    timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
-    std::fprintf(stderr, "without host %zd\n", std::count(hosts.begin(), hosts.end(), kNoVertex));
-  }
-  for (int i = 0; i < options.decimation_rounds; ++i) {
-    in_patches("decimate", [&](Patch& patch) {
-      collapse_edges(patch, {threshold, 2.5, 0, false});
-      remove_edges(patch, good);
-      flatten_interfaces(patch, threshold);
-      relax_vertices(patch, relax);
-      relax_vertices(patch, relax);
-      flatten_interfaces(patch, threshold);
-      collapse_edges(patch, {threshold, 2.5, 0, false});
-      relax_vertices(patch, relax);
-      pull_strays(patch, relax);
-      remove_edges(patch, good);
-      flatten_interfaces(patch, threshold);
-    });
-    timed("hosts", [&] { find_hosts(mesh, points, reach, hosts); });
-    timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
-    std::fprintf(stderr, "without host %zd\n", std::count(hosts.begin(), hosts.end(), kNoVertex));
-  }
-  for (int i = 0; i < options.repair_rounds && worst_sine_squared(mesh) < goal; ++i) {
-    // What is left is rare and stuck; from round to round it may give up a little more of the distances.
-    rules.guards.deviation_mm = std::min(0.45, options.deviation_diagonals + 0.05 * i) * diagonal;
-    rules.reach_mm = std::min(1.05, options.reach_diagonals + 0.05 * i) * diagonal;
-    in_patches("repair", [&](Patch& patch) {
-      for (int k = 0; k < 3; ++k) {
-        climb_vertices(patch, goal);
-        remove_edges(patch, goal);
-        collapse_edges(patch, {goal, 2.5, 0, true});
-      }
-      climb_vertices(patch, goal);
-    });
-  }
-  drop_unused_vertices(mesh);
-  report.tets_after = mesh.tets.size();
-  report.min_dihedral_after_deg = degrees(worst_sine_squared(mesh));
-  return report;
+  return Improver(mesh, image, options, on_round).run();
 }
 
 }  // namespace cbc3d

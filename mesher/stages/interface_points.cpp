@@ -155,7 +155,8 @@ std::vector<InterfacePoint> interface_points(const LabelImage& image) {
         }
         for_each_other(image, i, j, k, own, [&](MaterialId other) {
           const Vec3 c = image.frame.local_centre(i, j, k);
-          slice.push_back({{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}, own, other});
+          slice.push_back(
+              {{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)}, own, other});
         });
       }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "mesher/core/mesh_io.hpp"
@@ -131,7 +132,7 @@ void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
 }
 
 void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) {
-  if (!options.clean.manifold_voxels) {
+  if (!options.clean.manifold_voxels && options.topology.image_passes == 0) {
     report.warnings.emplace_back(
         "--topology-checks with --no-manifold-voxels: contacts of voxels by an edge or a vertex are left to "
         "the mesh, which "
@@ -148,6 +149,15 @@ void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) 
   if (report.topology.non_manifold_vertices_left > 0) {
     report.warnings.push_back(std::to_string(report.topology.non_manifold_vertices_left) +
                               " vertices are left where a label's surface is no manifold");
+  }
+}
+
+void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
+  if (report.improve.min_dihedral_after_deg < options.improve.min_dihedral_deg) {
+    char text[128];
+    std::snprintf(text, sizeof(text), "the smallest dihedral angle is %.2f degrees, not %.2f",
+                  report.improve.min_dihedral_after_deg, options.improve.min_dihedral_deg);
+    report.warnings.emplace_back(text);
   }
 }
 
@@ -213,11 +223,14 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
                                 ": elements stay below the minimum quality; --on-failure recover goes on");
     }
   }
-  if (options.improve.enabled) {
-    report.improve = log.run("improvement", 0.8, [&] {
-      return improve_mesh(mesh, image, options.improve, [&](int) {});
+  if (options.improve.enabled && !options.mixed) {
+    report.improve = log.run("improvement", 0.5, [&] {
+      return improve_mesh(mesh, image, options.improve, [&](int round) {
+        progress.step("improvement, round " + std::to_string(round + 1), std::min(0.95, 0.5 + 0.06 * round));
+      });
     });
     log.dump("5_improved_mesh", mesh);
+    warn_of_angles(options, report);
   }
   return to_physical_mesh(mesh, image);
 }

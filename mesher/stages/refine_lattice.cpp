@@ -20,7 +20,11 @@ namespace {
 class Refiner {
  public:
   Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options)
-      : lattice_(lattice), image_(image), options_(options), raster_(image.frame, lattice.frame), boundary_(image, {}) {
+      : lattice_(lattice),
+        image_(image),
+        options_(options),
+        raster_(image.frame, lattice.frame),
+        boundary_(image, {}) {
     const std::vector<std::size_t> voxels = image.voxels_per_material();
     rank_ = rank_by_size(image, BackgroundRank::highest);
     for (std::size_t m = 0; m < voxels.size(); ++m) {
@@ -216,12 +220,15 @@ class Refiner {
     std::vector<std::uint8_t> bad(points_.size(), 0);
 #pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t v = 0; v < sets_.size(); ++v) {
-      bad[v] = sets_[v].size > 2 && !all_meet_near(image_, points_[v], sets_[v], options_.contact_reach_mm) ? 1 : 0;
+      bad[v] = sets_[v].size > 2 && !all_meet_near(image_, points_[v], sets_[v], options_.contact_reach_mm)
+                   ? 1
+                   : 0;
     }
     const TetNodes& nodes = result_.mesh.tets.nodes;
 #pragma omp parallel for schedule(static, 1024)
     for (std::size_t t = 0; t < nodes.size(); ++t) {
-      if (std::any_of(nodes[t].begin(), nodes[t].end(), [&](VertexId v) { return !sets_.empty() && bad[v] != 0; })) {
+      if (std::any_of(nodes[t].begin(), nodes[t].end(),
+                      [&](VertexId v) { return !sets_.empty() && bad[v] != 0; })) {
         mark_tet(t);
       }
     }

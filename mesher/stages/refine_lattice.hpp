@@ -17,10 +17,11 @@ namespace cbc3d {
 struct RefineOptions {
   double fidelity = 0.95;                     ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
   std::map<Label, double> material_fidelity;  ///< F of single labels, in place of the global one
-  double max_distance_mm = 0;    ///< > 0: refine also where a boundary voxel has no interface vertex so near
-  double max_stray_mm = 0;       ///< > 0: refine also where an interface's vertex is farther than this from where
-                                 ///< the image has that interface
-  double contact_reach_mm = 0;   ///< with max_stray_mm: materials that meet at a vertex are to meet so near in the image
+  double max_distance_mm = 0;  ///< > 0: refine also where a boundary voxel has no interface vertex so near
+  double max_stray_mm = 0;  ///< > 0: refine also where an interface's vertex is farther than this from where
+                            ///< the image has that interface
+  double contact_reach_mm =
+      0;  ///< with max_stray_mm: materials that meet at a vertex are to meet so near in the image
   bool smooth_labels = false;    ///< a tet takes the material whose smoothed share is largest at its centroid
   bool each_interface = false;   ///< the distance is judged for every interface, not for every material
   double finest_spacing_mm = 0;  ///< the fidelity criterion splits no tet below this lattice spacing, mm;
@@ -28,9 +29,10 @@ struct RefineOptions {
   bool one_face_rule = true;     ///< the paper's: a candidate tet has at most one face towards background
   bool topology_checks = false;  ///< refine around non-manifold places once the fidelity is settled
   int topology_rounds = 3;       ///< how often, at most
-  int repair_rounds = 0;         ///< how often, at most, the distance is judged again after the repair of the topology
-  int repair_image_passes = 0;   ///< TopologyOptions::image_passes of that repair
-  int max_rounds = 40;           ///< a bound that is never reached unless something is wrong
+  int repair_rounds =
+      0;  ///< how often, at most, the distance is judged again after the repair of the topology
+  int repair_image_passes = 0;  ///< TopologyOptions::image_passes of that repair
+  int max_rounds = 40;          ///< a bound that is never reached unless something is wrong
 };
 
 /// How well the sub-mesh of one material matches its voxels. S1: voxels in the sub-mesh, S2: voxels of the
