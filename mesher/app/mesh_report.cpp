@@ -154,6 +154,7 @@ nlohmann::json improvement_json(const ImproveReport& improve) {
           {"min_dihedral_after_deg", improve.min_dihedral_after_deg},
           {"boundary_points", improve.boundary_points},
           {"uncovered_points", improve.uncovered_points},
+          {"crossings_left", improve.crossings_left},
           {"seconds", parts}};
 }
 

@@ -8,6 +8,7 @@
 #include "mesher/improve/edge_collapse.hpp"
 #include "mesher/improve/edge_removal.hpp"
 #include "mesher/improve/mesh_patches.hpp"
+#include "mesher/improve/surface_crossings.hpp"
 #include "mesher/improve/tet_shape.hpp"
 #include "mesher/improve/vertex_moves.hpp"
 
@@ -126,6 +127,9 @@ class Improver {
     }
     drop_unused_vertices(mesh_);
     order_for_locality(mesh_);
+    timed("crossings", [this] {
+      report_.crossings_left = separate_crossings(mesh_, {0.08 * diagonal_mm_, goal_, 12});
+    });
     finish();
     return std::move(report_);
   }
@@ -171,7 +175,7 @@ class Improver {
     const double reach_mm =
         std::max(reach_mm_, std::min(1.05 * diagonal_mm_, reach_mm_ + 0.05 * round * diagonal_mm_));
     const double deviation =
-        std::max(options_.deviation_diagonals, std::min(0.45, options_.deviation_diagonals + 0.05 * round));
+        std::max(options_.deviation_diagonals, std::min(0.4, options_.deviation_diagonals + 0.05 * round));
     in_patches("repair", reach_mm, deviation, [this](Patch& patch) {
       for (int turn = 0; turn < 3; ++turn) {
         climb_vertices(patch, goal_);

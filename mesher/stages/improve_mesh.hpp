@@ -33,7 +33,8 @@ struct ImproveReport {
   double min_dihedral_before_deg = 0, min_dihedral_after_deg = 0;
   std::size_t boundary_points = 0;
   std::size_t uncovered_points = 0;  ///< without a surface vertex in reach in the end
-  /// Seconds by part: hosts, fitting, volumes, decimation, repair.
+  std::size_t crossings_left = 0;    ///< pairs of outer facets that cut each other
+  /// Seconds by part: hosts, fitting, volumes, decimation, repair, crossings.
   std::vector<std::pair<std::string, double>> part_seconds;
 };
 

@@ -1,0 +1,224 @@
+#include "mesher/improve/surface_crossings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/improve/tet_shape.hpp"
+
+namespace cbc3d {
+namespace {
+
+using Facet = std::array<VertexId, 3>;
+
+struct OuterSurface {
+  std::vector<Facet> facets;  // counter-clockwise seen from outside
+  std::vector<Vec3> normals;  // of vertices, sum of their facets' area vectors
+};
+
+OuterSurface outer_surface(const MaterialMesh& mesh) {
+  OuterSurface surface;
+  surface.normals.resize(mesh.points.size());
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      if (neighbours[t][n] == kNoTet) {
+        const auto& nodes = mesh.tets[t];
+        const Facet f = {nodes[kTetFace[n][0]], nodes[kTetFace[n][1]], nodes[kTetFace[n][2]]};
+        const Vec3 normal =
+            (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]);
+        for (const VertexId v : f) {
+          surface.normals[v] += normal;
+        }
+        surface.facets.push_back(f);
+      }
+    }
+  }
+  return surface;
+}
+
+/// True when segment p, q meets triangle a, b, c; what is within rounding of touching counts.
+bool meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double scale = (b - a).norm() * (c - a).norm() * (q - p).norm();
+  const double tiny = 1e-9 * scale;
+  const double side_p = six_volumes(a, b, c, p);
+  const double side_q = six_volumes(a, b, c, q);
+  if ((side_p > tiny && side_q > tiny) || (side_p < -tiny && side_q < -tiny)) {
+    return false;
+  }
+  const double u = six_volumes(p, q, a, b);
+  const double v = six_volumes(p, q, b, c);
+  const double w = six_volumes(p, q, c, a);
+  return (u >= -tiny && v >= -tiny && w >= -tiny) || (u <= tiny && v <= tiny && w <= tiny);
+}
+
+class CrossingFinder {
+ public:
+  CrossingFinder(const std::vector<Vec3>& points, const std::vector<Facet>& facets)
+      : points_(points), facets_(facets) {
+    double sum = 0;
+    for (const Facet& f : facets) {
+      sum += (points[f[1]] - points[f[0]]).norm();
+    }
+    cell_mm_ = facets.empty() ? 1 : 2 * sum / static_cast<double>(facets.size());
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+      for_each_cell(f, [&](std::uint64_t key) { entries_.push_back({key, f}); });
+    }
+    std::sort(entries_.begin(), entries_.end());
+  }
+
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> find() const {
+    std::vector<std::vector<std::uint32_t>> partners(facets_.size());
+#pragma omp parallel for schedule(dynamic, 256)
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      partners[f] = partners_of(static_cast<std::uint32_t>(f));
+    }
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (std::uint32_t f = 0; f < partners.size(); ++f) {
+      for (const std::uint32_t g : partners[f]) {
+        pairs.push_back({f, g});
+      }
+    }
+    return pairs;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t key;
+    std::uint32_t facet;
+    auto operator<=>(const Entry&) const = default;
+  };
+
+  template <typename F>
+  void for_each_cell(std::uint32_t facet, const F& f) const {
+    Index3 low;
+    Index3 high;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [least, most] =
+          std::minmax({points_[facets_[facet][0]][axis], points_[facets_[facet][1]][axis],
+                       points_[facets_[facet][2]][axis]});
+      low[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor(least / cell_mm_));
+      high[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor(most / cell_mm_));
+    }
+    for (int k = low[2]; k <= high[2]; ++k) {
+      for (int j = low[1]; j <= high[1]; ++j) {
+        for (int i = low[0]; i <= high[0]; ++i) {
+          constexpr int kShift = 1 << 20;
+          f((static_cast<std::uint64_t>(k + kShift) << 42) | (static_cast<std::uint64_t>(j + kShift) << 21) |
+            static_cast<std::uint64_t>(i + kShift));
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> partners_of(std::uint32_t f) const {
+    std::vector<std::uint32_t> near;
+    for_each_cell(f, [&](std::uint64_t key) {
+      for (auto e = std::lower_bound(entries_.begin(), entries_.end(), Entry{key, f + 1});
+           e != entries_.end() && e->key == key; ++e) {
+        near.push_back(e->facet);
+      }
+    });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    std::erase_if(near, [&](std::uint32_t g) { return !cross(facets_[f], facets_[g]); });
+    return near;
+  }
+
+  [[nodiscard]] bool cross(const Facet& f, const Facet& g) const {
+    const auto shared = std::count_if(f.begin(), f.end(), [&](VertexId v) { return has(g, v); });
+    return shared < 2 && (sides_meet(f, g) || sides_meet(g, f));
+  }
+
+  static bool has(const Facet& f, VertexId v) {
+    return f[0] == v || f[1] == v || f[2] == v;
+  }
+
+  /// A side of f meets facet g; sides that end in a vertex of g only touch it there.
+  [[nodiscard]] bool sides_meet(const Facet& f, const Facet& g) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const VertexId p = f[i];
+      const VertexId q = f[(i + 1) % 3];
+      if (!has(g, p) && !has(g, q) &&
+          meets(points_[p], points_[q], points_[g[0]], points_[g[1]], points_[g[2]])) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const std::vector<Vec3>& points_;
+  const std::vector<Facet>& facets_;
+  double cell_mm_ = 1;
+  std::vector<Entry> entries_;
+};
+
+/// Moves single vertices of a mesh whose tets stay.
+class Retreat {
+ public:
+  Retreat(MaterialMesh& mesh, const CrossingOptions& options)
+      : mesh_(mesh), options_(options), around_(tets_of_vertices(mesh.tets, mesh.points.size())) {}
+
+  bool move(VertexId v, const Vec3& inwards) {
+    const Vec3 from = mesh_.points[v];
+    const double floor = std::min(options_.goal_sine_squared, worst_at(v));
+    for (double length = options_.step_mm; length > 0.2 * options_.step_mm; length *= 0.5) {
+      mesh_.points[v] = from + length * inwards;
+      if (worst_at(v) >= floor) {
+        return true;
+      }
+    }
+    mesh_.points[v] = from;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] double worst_at(VertexId v) const {
+    double worst = 1;
+    for (std::uint32_t i = around_.first[v]; i < around_.first[v + 1]; ++i) {
+      const auto& n = mesh_.tets[around_.tets[i]];
+      worst = std::min(worst, min_sine_squared(mesh_.points[n[0]], mesh_.points[n[1]], mesh_.points[n[2]],
+                                               mesh_.points[n[3]]));
+    }
+    return worst;
+  }
+
+  MaterialMesh& mesh_;
+  const CrossingOptions& options_;
+  VertexTets around_;
+};
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 2>> crossing_facets(
+    const std::vector<Vec3>& points, const std::vector<std::array<VertexId, 3>>& facets) {
+  return CrossingFinder(points, facets).find();
+}
+
+std::size_t separate_crossings(MaterialMesh& mesh, const CrossingOptions& options) {
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  Retreat retreat(mesh, options);
+  for (int round = 0;; ++round) {
+    const OuterSurface surface = outer_surface(mesh);
+    pairs = crossing_facets(mesh.points, surface.facets);
+    if (pairs.empty() || round == options.rounds) {
+      return pairs.size();
+    }
+    std::vector<VertexId> vertices;
+    for (const auto& pair : pairs) {
+      for (const std::uint32_t f : pair) {
+        vertices.insert(vertices.end(), surface.facets[f].begin(), surface.facets[f].end());
+      }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::size_t moved = 0;
+    for (const VertexId v : vertices) {
+      moved += retreat.move(v, -1 * surface.normals[v].normalized()) ? 1 : 0;
+    }
+    if (moved == 0) {
+      return pairs.size();
+    }
+  }
+}
+
+}  // namespace cbc3d

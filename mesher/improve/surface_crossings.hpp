@@ -1,0 +1,25 @@
+// Where the outer surface of a mesh cuts itself, as across a gap thinner than the surface's error, and how it
+// is drawn apart. Inside, where tets fill both sides, nothing can cross while all tets are positive.
+#pragma once
+
+#include "mesher/stages/material_mesh.hpp"
+
+namespace cbc3d {
+
+struct CrossingOptions {
+  double step_mm = 0.1;          ///< a vertex retreats so far a round, or half or a quarter of it
+  double goal_sine_squared = 0;  ///< no tet's worst angle falls below this, or below what it was
+  int rounds = 12;               ///< at most
+};
+
+/// Pairs of facets of the outer surface that cross or touch without sharing a vertex, or that share one and
+/// cross away from it; indices into `facets`, each pair once, ascending. Rounding may add pairs that nearly
+/// touch. Parallel.
+std::vector<std::array<std::uint32_t, 2>> crossing_facets(const std::vector<Vec3>& points,
+                                                          const std::vector<std::array<VertexId, 3>>& facets);
+
+/// Draws the vertices of crossing facets back into their own tets until nothing crosses. Returns the pairs
+/// left.
+std::size_t separate_crossings(MaterialMesh& mesh, const CrossingOptions& options);
+
+}  // namespace cbc3d
