@@ -1,5 +1,7 @@
 #include "mesher/stages/tet_adjacency.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <atomic>
 
@@ -27,24 +29,43 @@ struct FaceBuckets {
   std::vector<FaceEntry> faces;
 };
 
+/// Calls f(face's smallest vertex, tet, node) for the faces whose smallest vertex is in [begin, end), in order.
+template <typename F>
+void for_each_face(const TetNodes& tets, VertexId begin, VertexId end, const F& f) {
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    const auto& tet = tets[t];
+    for (unsigned n = 0; n < 4; ++n) {
+      const VertexId least = std::min({tet[kTetFace[n][0]], tet[kTetFace[n][1]], tet[kTetFace[n][2]]});
+      if (least >= begin && least < end) {
+        f(least, t, n);
+      }
+    }
+  }
+}
+
+/// Each thread fills the buckets of a range of vertices and passes over all tets for it: reading them again costs
+/// less than the scattered writes, of which every thread has its share.
 FaceBuckets bucket_faces(const TetNodes& tets, std::size_t vertex_count) {
   FaceBuckets buckets;
   buckets.first.assign(vertex_count + 1, 0);
-  for (const auto& tet : tets) {
-    for (unsigned n = 0; n < 4; ++n) {
-      ++buckets.first[std::min({tet[kTetFace[n][0]], tet[kTetFace[n][1]], tet[kTetFace[n][2]]}) + 1];
-    }
+  buckets.faces.resize(4 * tets.size());
+  const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
+  const auto begin_of = [&](std::size_t part) { return static_cast<VertexId>(part * vertex_count / parts); };
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    for_each_face(tets, begin_of(part), begin_of(part + 1),
+                  [&](VertexId least, std::size_t, unsigned) { ++buckets.first[least + 1]; });
   }
   for (std::size_t v = 0; v < vertex_count; ++v) {
     buckets.first[v + 1] += buckets.first[v];
   }
-  buckets.faces.resize(4 * tets.size());
   std::vector<std::uint32_t> next(buckets.first.begin(), buckets.first.end() - 1);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    for (unsigned n = 0; n < 4; ++n) {
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    for_each_face(tets, begin_of(part), begin_of(part + 1), [&](VertexId least, std::size_t t, unsigned n) {
       const Face face = sorted_face(tets[t], n);
-      buckets.faces[next[face[0]]++] = {face[1], face[2], static_cast<std::uint32_t>(4 * t + n)};
-    }
+      buckets.faces[next[least]++] = {face[1], face[2], static_cast<std::uint32_t>(4 * t + n)};
+    });
   }
   return buckets;
 }
