@@ -24,6 +24,7 @@ struct MeshCommand {
   std::string out;
   RunDescription run{"quality", 0, {}, {}};
   std::vector<std::string> material_fidelity;
+  std::vector<std::string> sizes;
   MaterialOptions materials;
   Overrides overrides;
   std::string report_file;
@@ -62,6 +63,10 @@ void run(MeshCommand& command) {
   options.refine.material_fidelity =
       parse_label_values("--material-fidelity", command.material_fidelity, image,
                          {[](double f) { return f > 0 && f <= 1; }, "F with F in (0, 1], for example 2=0.9"});
+  options.refine.size_mm = parse_label_values(
+      "--size", command.sizes, image,
+      {[](double size_mm) { return size_mm > 0; }, "MM with a length above 0, for example 2=1.5"});
+  options.improve.size_mm = options.refine.size_mm;
   apply_material_options(command.materials, image, options.deform.elasticity);
   MeshImageReport report;
   const Mesh mesh = mesh_image(std::move(image), options, progress, report);
@@ -107,6 +112,8 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   add_lattice_options(*mesh, command->overrides);
   mesh->add_option("--material-fidelity", command->material_fidelity,
                    "LABEL=F: the fidelity of one label (repeatable)");
+  mesh->add_option("--size", command->sizes,
+                   "LABEL=MM: no edge of this label's elements is longer (repeatable)");
   add_mixed_options(*mesh, command->overrides);
   add_improvement_options(*mesh, command->overrides);
   add_deformation_options(*mesh, command->overrides);

@@ -119,8 +119,10 @@ class EdgeCollapser {
     }
     mean /= static_cast<double>(patch_.around.size());
     double longest = options_.longest_growth * mean;
-    if (options_.longest_mm > 0) {
-      longest = std::min(longest, options_.longest_mm);
+    if (options_.longest_mm != nullptr) {
+      for (const TetId t : patch_.star) {
+        longest = std::min(longest, (*options_.longest_mm)[mesh_.material(t)]);
+      }
     }
     const double floor = options_.only_bad ? before_ : options_.threshold_sine_squared;
     for (const VertexId v : patch_.around) {

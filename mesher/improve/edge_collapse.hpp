@@ -8,7 +8,8 @@ namespace cbc3d {
 struct CollapseOptions {
   double threshold_sine_squared = 0.1;  ///< new tets are no worse than this
   double longest_growth = 2.5;          ///< new edges are no longer than so many times the mean old one
-  double longest_mm = 0;                ///< nor than this; 0: no such limit
+  const std::vector<double>* longest_mm =
+      nullptr;            ///< nor, in tets of material m, than (*longest_mm)[m]; null: no limit
   bool only_bad = false;  ///< only vertices of tets below the threshold, where that lifts the worst
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "mesher/core/progress.hpp"
@@ -106,7 +107,13 @@ class Improver {
         reach_mm_(options.reach_mm > 0 ? options.reach_mm : 0.9 * diagonal_mm_),
         goal_(sine_squared_of_deg(options.min_dihedral_deg + kMarginDeg)),
         boundary_(image, options.boundary),
-        relax_{options.surface_weight, 0.5, 0.01 * diagonal_mm_} {}
+        relax_{options.surface_weight, 0.5, 0.01 * diagonal_mm_},
+        longest_mm_(image.material_count(), std::numeric_limits<double>::infinity()) {
+    for (std::size_t m = 1; m < longest_mm_.size(); ++m) {
+      const auto size = options.size_mm.find(image.labels[m]);
+      longest_mm_[m] = size != options.size_mm.end() ? size->second : longest_mm_[m];
+    }
+  }
 
   ImproveReport run() {
     report_.tets_before = mesh_.tets.size();
@@ -153,7 +160,7 @@ class Improver {
   }
 
   void decimate() {
-    const CollapseOptions collapse{goal_, kLongestGrowth, 0, false};
+    const CollapseOptions collapse{goal_, kLongestGrowth, &longest_mm_, false};
     in_patches("decimation", reach_mm_, options_.deviation_diagonals, [&](Patch& patch) {
       collapse_edges(patch, collapse);
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
@@ -180,7 +187,7 @@ class Improver {
       for (int turn = 0; turn < 3; ++turn) {
         climb_vertices(patch, goal_);
         remove_edges(patch, goal_);
-        collapse_edges(patch, {goal_, kLongestGrowth, 0, true});
+        collapse_edges(patch, {goal_, kLongestGrowth, nullptr, true});
       }
       climb_vertices(patch, goal_);
     });
@@ -229,6 +236,7 @@ class Improver {
   double diagonal_mm_, reach_mm_, goal_;
   ImageBoundary boundary_;
   RelaxOptions relax_;
+  std::vector<double> longest_mm_;  // edges of each material
   std::vector<InterfacePoint> points_;
   std::vector<VertexId> hosts_;
   int round_ = 0;

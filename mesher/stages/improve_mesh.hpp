@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,9 +22,10 @@ struct ImproveOptions {
   double reach_mm = 0;  ///< every boundary voxel keeps a surface vertex so near; 0: .9 voxel diagonals
   double deviation_diagonals = 0.15;  ///< facets stay so near to the boundary, voxel diagonals
   double surface_weight =
-      1000;                   ///< pull to the boundary against the tets' shape, distances in voxel diagonals
-  int decimation_rounds = 3;  ///< 0: as many tets as before
-  int repair_rounds = 8;      ///< at most; they end when the goal is reached
+      1000;  ///< pull to the boundary against the tets' shape, distances in voxel diagonals
+  std::map<Label, double> size_mm;  ///< the decimation makes no edge of these labels longer
+  int decimation_rounds = 3;        ///< 0: as many tets as before
+  int repair_rounds = 8;            ///< at most; they end when the goal is reached
   ImageBoundaryOptions boundary;
 };
 

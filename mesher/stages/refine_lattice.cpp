@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "mesher/improve/image_boundary.hpp"
@@ -47,6 +48,7 @@ class Refiner {
       find_uncovered_voxels();
       measure_fidelity();
       mark_strays();
+      mark_oversized();
       on_round(result_.rounds, result_.mesh.tets.size());
       if (mark() == 0 || result_.rounds == options_.max_rounds) {
         break;
@@ -191,6 +193,25 @@ class Refiner {
     find_uncovered_voxels();
     measure_fidelity();
     mark_strays();
+  }
+
+  /// Tets of a label that is to have smaller elements.
+  void mark_oversized() {
+    if (options_.size_mm.empty()) {
+      return;
+    }
+    std::vector<double> size_mm(image_.material_count(), std::numeric_limits<double>::infinity());
+    for (std::size_t m = 1; m < size_mm.size(); ++m) {
+      const auto wanted = options_.size_mm.find(image_.labels[m]);
+      size_mm[m] = wanted != options_.size_mm.end() ? wanted->second : size_mm[m];
+    }
+    const std::vector<MaterialId>& materials = result_.mesh.materials;
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < materials.size(); ++t) {
+      if (lattice_.frame.spacing_mm(level_of(t)) > size_mm[materials[t]]) {
+        mark_tet(t);
+      }
+    }
   }
 
   /// The other direction: a vertex of an interface that lies too far from where the image has that interface.

@@ -17,6 +17,7 @@ namespace cbc3d {
 struct RefineOptions {
   double fidelity = 0.95;                     ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
   std::map<Label, double> material_fidelity;  ///< F of single labels, in place of the global one
+  std::map<Label, double> size_mm;            ///< no lattice edge of these labels is longer
   double max_distance_mm = 0;  ///< > 0: refine also where a boundary voxel has no interface vertex so near
   double max_stray_mm = 0;  ///< > 0: refine also where an interface's vertex is farther than this from where
                             ///< the image has that interface
