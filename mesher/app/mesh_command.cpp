@@ -113,7 +113,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   mesh->add_option("--material-fidelity", command->material_fidelity,
                    "LABEL=F: the fidelity of one label (repeatable)");
   mesh->add_option("--size", command->sizes,
-                   "LABEL=MM: no edge of this label's elements is longer (repeatable)");
+                   "LABEL=MM: the edges of this label's elements are no longer, about (repeatable)");
   add_mixed_options(*mesh, command->overrides);
   add_improvement_options(*mesh, command->overrides);
   add_deformation_options(*mesh, command->overrides);
