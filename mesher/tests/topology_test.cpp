@@ -17,10 +17,10 @@ Faults faults_of_label(const Mesh& mesh, Label label) {
 }
 
 Mesh mesh_with_checks(const LabelImage& image, bool checks, MeshImageReport& report) {
-  MeshImageOptions options = preset_options("quality", image.frame);
-  options.improve.enabled = false;  // what is judged is the repair of the lattice
-  options.refine.one_face_rule = options.topology.one_face_rule = true;
-  options.refine.repair_rounds = options.refine.repair_image_passes = options.topology.image_passes = 0;
+  MeshImageOptions options;
+  options.clean.region_tolerance = 0;
+  options.refine.max_distance_mm = 2 * image.frame.voxel_diagonal_mm();
+  options.deform.iterations = 0;
   options.topology.enabled = checks;
   Progress quiet(true);
   return mesh_image(image, options, quiet, report);
