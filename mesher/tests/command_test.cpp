@@ -63,8 +63,8 @@ class Command : public ::testing::Test {
 };
 
 TEST_F(Command, MeshesAnImageAndReports) {
-  const Outcome outcome = run("mesh " + at("ball.nii.gz") + " --out " + at("m.vtu") + " --report " +
-                              at("r.json") + " --dump-stages " + at("stages"));
+  const Outcome outcome = run("mesh " + at("ball.nii.gz") + " --preset paper --out " + at("m.vtu") +
+                              " --report " + at("r.json") + " --dump-stages " + at("stages"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const Mesh mesh = read_mesh(at("m.vtu"));
   EXPECT_EQ(labels_of(mesh), (std::vector<Label>{1, 2}));
@@ -87,9 +87,9 @@ TEST_F(Command, SameBytesAtOneAndTwoThreads) {
 
 TEST_F(Command, QuietSaysNothingAndLinesAreSaidElsewhere) {
   EXPECT_EQ(run("mesh " + at("ball.nii.gz") + " --quiet --fidelity 0.8 --out " + at("a.vtu")).text, "");
-  EXPECT_NE(
-      run("mesh " + at("ball.nii.gz") + " --out " + at("a.vtu")).text.find("deformation, iteration 5\n"),
-      std::string::npos);
+  EXPECT_NE(run("mesh " + at("ball.nii.gz") + " --preset paper --out " + at("a.vtu"))
+                .text.find("deformation, iteration 5\n"),
+            std::string::npos);
 }
 
 TEST_F(Command, RefusesBadInputWithOneLine) {

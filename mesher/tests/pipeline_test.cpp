@@ -263,8 +263,8 @@ TEST(SelectCandidate, DoesNotDependOnLabelOrder) {
     const MaterialId m = image.voxels[v];
     swapped.voxels.set(v, m == 0 ? m : static_cast<MaterialId>(3 - m));
   }
-  const Mesh a = mesh_of(image);
-  const Mesh b = mesh_of(swapped);
+  const Mesh a = mesh_of(image, "paper");
+  const Mesh b = mesh_of(swapped, "paper");
   ASSERT_EQ(a.tets.size(), b.tets.size());
   EXPECT_NEAR(volume_of(a, 1), volume_of(b, 2), 1e-9);
   EXPECT_NEAR(volume_of(a, 2), volume_of(b, 1), 1e-9);

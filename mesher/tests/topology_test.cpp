@@ -1,68 +1,25 @@
 // Mesh topological checks, against a facet-based check that shares no code with them.
 #include <gtest/gtest.h>
 
-#include <map>
-#include <set>
-
 #include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/mesh_image.hpp"
 #include "mesher/stages/presets.hpp"
+#include "mesher/tests/mesh_checks.hpp"
 #include "mesher/tests/test_images.hpp"
 
 namespace cbc3d {
 namespace {
 
-struct Faults {
-  std::size_t edges = 0;     // with other than two facets of a label's surface
-  std::size_t vertices = 0;  // whose facets form more than one fan
-};
-
-using Edge = std::pair<VertexId, VertexId>;
-Edge edge(VertexId a, VertexId b) {
-  return {std::min(a, b), std::max(a, b)};
-}
+using testing::Faults;
 
 Faults faults_of_label(const Mesh& mesh, Label label) {
-  std::map<std::array<VertexId, 3>, int> faces;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (mesh.tets.labels[t] == label) {
-      for (const auto& f : kTetFace) {
-        std::array<VertexId, 3> key = {mesh.tets.nodes[t][f[0]], mesh.tets.nodes[t][f[1]],
-                                       mesh.tets.nodes[t][f[2]]};
-        std::sort(key.begin(), key.end());
-        ++faces[key];
-      }
-    }
-  }
-  std::map<Edge, int> edges;
-  std::map<VertexId, std::vector<Edge>> rims;  // for each vertex the opposite edges of its facets
-  for (const auto& [f, count] : faces) {
-    if (count == 1) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        ++edges[edge(f[i], f[(i + 1) % 3])];
-        rims[f[i]].push_back({f[(i + 1) % 3], f[(i + 2) % 3]});
-      }
-    }
-  }
-  Faults faults;
-  for (const auto& [e, count] : edges) faults.edges += count != 2 ? 1 : 0;
-  for (auto& [v, rim] : rims) {
-    std::set<VertexId> reached = {rim[0].first};
-    for (std::size_t grown = 0; grown != reached.size();) {
-      grown = reached.size();
-      for (const Edge& e : rim) {
-        if (reached.count(e.first) + reached.count(e.second) > 0) reached.insert({e.first, e.second});
-      }
-    }
-    std::set<VertexId> all;
-    for (const Edge& e : rim) all.insert({e.first, e.second});
-    faults.vertices += reached.size() != all.size() ? 1 : 0;
-  }
-  return faults;
+  return testing::faults_of_surface(testing::surface_of_label(mesh.tets.nodes, mesh.tets.labels, label));
 }
 
 Mesh mesh_with_checks(const LabelImage& image, bool checks, MeshImageReport& report) {
-  MeshImageOptions options = preset_options("quality", image.frame);
+  MeshImageOptions options;
+  options.clean.region_tolerance = 0;
+  options.refine.max_distance_mm = 2 * image.frame.voxel_diagonal_mm();
   options.deform.iterations = 0;
   options.topology.enabled = checks;
   Progress quiet(true);
@@ -86,9 +43,9 @@ TEST(Topology, NoiseBecomesManifoldForEveryLabel) {
       EXPECT_EQ(after.vertices, 0U) << "seed " << seed << " label " << label;
     }
     const auto neighbours = tet_neighbours(mesh.tets.nodes, mesh.points.size());
-    for (const auto& n : neighbours) {
-      EXPECT_LE(std::count(n.begin(), n.end(), kNoTet), 1);  // the rule of the candidate mesh still holds
-    }
+    // The rule of the candidate mesh still holds.
+    EXPECT_TRUE(std::all_of(neighbours.begin(), neighbours.end(),
+                            [](const auto& n) { return std::count(n.begin(), n.end(), kNoTet) <= 1; }));
   }
   EXPECT_GT(without, 0U);  // there was something to repair
 }
@@ -127,6 +84,39 @@ TEST(Topology, KnownStars) {
   EXPECT_TRUE(bad_at_origin({0, 1, 1, 1, 1, 1, 1, 0}));   // the same from inside
   EXPECT_FALSE(bad_at_origin({1, 2, 1, 2, 1, 2, 1, 2}));  // two half spaces
   EXPECT_TRUE(bad_at_origin({1, 2, 2, 1, 2, 1, 1, 2}));   // a checkerboard
+}
+
+TEST(Topology, NoiseBecomesManifoldWithoutTheRuleOfOneFaceToo) {
+  const LabelImage image = testing::noise_image(14, 0.5, 4);
+  MeshImageOptions options = preset_options("quality", image.frame);
+  options.improve.enabled = false;
+  ASSERT_FALSE(options.topology.one_face_rule);
+  MeshImageReport report;
+  Progress quiet(true);
+  const Mesh mesh = mesh_image(image, options, quiet, report);
+  EXPECT_EQ(report.topology.non_manifold_vertices_left, 0U);
+  for (const Label label : {1, 2}) {
+    const Faults faults = faults_of_label(mesh, label);
+    EXPECT_EQ(faults.edges + faults.vertices, 0U) << "label " << label;
+  }
+  std::ptrdiff_t two = 0;  // tets that the rule would have taken away
+  for (const auto& n : tet_neighbours(mesh.tets.nodes, mesh.points.size())) {
+    two += std::count(n.begin(), n.end(), kNoTet) > 1 ? 1 : 0;
+  }
+  EXPECT_GT(two, 0);
+}
+
+TEST(Topology, TheImageDecidesFirstAtANonManifoldVertex) {
+  for (const int there : {0, 1}) {
+    const LabelImage image = testing::make_image({3, 3, 3}, {1, 1, 1}, 1, [&](const Vec3&) { return there; });
+    std::vector<Vec3> points;
+    CandidateMesh mesh = octants({1, 0, 0, 0, 0, 0, 0, 1}, points);
+    const TopologyReport report = check_topology(mesh, points, image, {true, false, 1, 0.0});
+    EXPECT_EQ(mesh.materials, std::vector<MaterialId>(8, static_cast<MaterialId>(there)));
+    EXPECT_EQ(report.non_manifold_vertices, 1U);
+    EXPECT_EQ(report.tets_relabelled, there == 1 ? 6U : 2U);
+    EXPECT_EQ(report.non_manifold_vertices_left, 0U);
+  }
 }
 
 TEST(Topology, CrumbsGoAndRegionsStay) {
