@@ -179,11 +179,23 @@ struct VertexMover {
     return false;
   }
 
+  /// The worst angle of a tet; where it is not positive something below that falls with its volume, so that there
+  /// is a way up even for a tangled one.
+  static double height(const Vec3& x, const std::array<Vec3, 3>& face) {
+    const double sine_squared = min_sine_squared(x, face[0], face[1], face[2]);
+    if (sine_squared >= 0) {
+      return sine_squared;
+    }
+    const double side = (face[0] - face[1]).norm() + (face[1] - face[2]).norm() + (face[2] - face[0]).norm();
+    const double volume = (face[0] - x).cross(face[1] - x).dot(face[2] - x);
+    return side > 0 ? -1 + std::min(0.0, volume / (side * side * side)) : -1;
+  }
+
   /// The worst angle of the star with v at x, given up below `floor`.
   [[nodiscard]] double worst(const Vec3& x, double floor) const {
     double smallest = 1;
     for (const auto& face : link) {
-      smallest = std::min(smallest, min_sine_squared(x, face[0], face[1], face[2]));
+      smallest = std::min(smallest, height(x, face));
       if (smallest <= floor) {
         return smallest;
       }
@@ -196,7 +208,7 @@ struct VertexMover {
     const std::array<Vec3, 3>* bad = &link.front();
     double smallest = 2;
     for (const auto& face : link) {
-      const double s = min_sine_squared(x, face[0], face[1], face[2]);
+      const double s = height(x, face);
       if (s < smallest) {
         smallest = s;
         bad = &face;
@@ -206,7 +218,7 @@ struct VertexMover {
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 at = x;
       at[axis] += 1e-4 * h;
-      gradient[axis] = min_sine_squared(at, (*bad)[0], (*bad)[1], (*bad)[2]) - smallest;
+      gradient[axis] = height(at, *bad) - smallest;
     }
     return gradient.normalized();
   }
@@ -217,7 +229,7 @@ struct VertexMover {
     }
     const Vec3 start = patch.mesh.point(v);
     const double h = std::sqrt(mean_squared_distance(link, start));
-    double best = worst(start, -2);
+    double best = worst(start, -1e300);
     if (best >= goal) {
       return false;
     }

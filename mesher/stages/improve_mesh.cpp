@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <map>
 
 #include "mesher/core/progress.hpp"
 #include "mesher/improve/edge_collapse.hpp"
@@ -68,6 +67,59 @@ void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, ImageBou
   boundary.set_offsets(std::move(offsets));
 }
 
+/// Points with their hosts, and the reach of those that none was within reach of.
+struct Hosted {
+  std::vector<InterfacePoint> points;
+  std::vector<VertexId> hosts;
+  std::vector<float> far_reach_mm;
+};
+
+/// What no vertex of both materials is near goes to the nearest surface vertex of its own one, and is to stay as
+/// near to one as that: the points without host otherwise grow lonelier unseen.
+void host_far_points(const MaterialMesh& mesh, const std::vector<MaterialSet>& sets, double reach_mm,
+                     double leeway_mm, Hosted& hosted) {
+  hosted.far_reach_mm.assign(hosted.points.size(), 0);
+  std::vector<std::size_t> lost;
+  for (std::size_t p = 0; p < hosted.points.size(); ++p) {
+    if (hosted.hosts[p] == kNoVertex) {
+      hosted.points[p].other = hosted.points[p].own;
+      lost.push_back(p);
+    }
+  }
+  for (int doubling = 0; doubling < 12 && !lost.empty(); ++doubling, reach_mm *= 2) {
+    std::vector<InterfacePoint> points;
+    for (const std::size_t p : lost) {
+      points.push_back(hosted.points[p]);
+    }
+    const std::vector<VertexId> hosts = nearest_hosts(points, mesh.points, sets, reach_mm);
+    std::vector<std::size_t> still_lost;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      if (hosts[i] == kNoVertex) {
+        still_lost.push_back(lost[i]);
+        continue;
+      }
+      hosted.hosts[lost[i]] = hosts[i];
+      const double distance_mm = (mesh.points[hosts[i]] - points[i].centre()).norm();
+      hosted.far_reach_mm[lost[i]] = static_cast<float>(distance_mm + leeway_mm);
+    }
+    lost = std::move(still_lost);
+  }
+}
+
+Hosted find_hosts(const MaterialMesh& mesh, const ImproveTarget& target, ImproveReport& report) {
+  Hosted hosted{target.points, {}, {}};
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  const auto sets = vertex_materials(mesh.tets, mesh.materials, neighbours, mesh.points.size());
+  hosted.hosts = nearest_hosts(hosted.points, mesh.points, sets, target.reach_mm);
+  report.boundary_points = hosted.points.size();
+  report.uncovered_points =
+      static_cast<std::size_t>(std::count(hosted.hosts.begin(), hosted.hosts.end(), kNoVertex));
+  if (target.far_points && report.uncovered_points > 0) {
+    host_far_points(mesh, sets, target.reach_mm, 0.05 * target.scale_mm, hosted);
+  }
+  return hosted;
+}
+
 double degrees(double sine_squared) {
   return sine_squared <= 0 ? 0 : std::asin(std::sqrt(std::min(1.0, sine_squared))) * 180 / std::numbers::pi;
 }
@@ -76,53 +128,65 @@ double degrees(double sine_squared) {
 
 ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
                            const std::function<void(int round)>& on_round) {
+  const double diagonal = image.frame.voxel_diagonal_mm();
+  ImageBoundary boundary(image, options.boundary);
+  const std::vector<InterfacePoint> points = interface_points(image);
+  const ImproveTarget target{boundary, points, diagonal, options.deviation_diagonals * diagonal,
+                             options.reach_diagonals * diagonal, options.far_points,
+                             [&](const MaterialMesh& now) { correct_volumes(now, image, boundary); }};
+  return improve_mesh(mesh, target, options, on_round);
+}
+
+ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, const ImproveOptions& options,
+                           const std::function<void(int round)>& on_round) {
   ImproveReport report;
   report.tets_before = mesh.tets.size();
   report.min_dihedral_before_deg = degrees(worst_sine_squared(mesh));
-  const double diagonal = image.frame.voxel_diagonal_mm();
-  ImageBoundary boundary(image, options.boundary);
-  const double reach = options.reach_diagonals * diagonal;
+  const double diagonal = target.scale_mm;
+  const double reach = target.reach_mm;
   const auto timed = [&](const std::string& name, const auto& part) {
     const Stopwatch watch;
     part();
     report.part_seconds.emplace_back(name, watch.seconds());
   };
 
-  std::vector<InterfacePoint> points;
-  std::vector<VertexId> hosts;
-  timed("hosts", [&] {
-    points = interface_points(image);
-    hosts = nearest_hosts(points, mesh.points, vertex_materials(mesh.tets, mesh.materials, tet_neighbours(mesh.tets, mesh.points.size()), mesh.points.size()), reach);
-  });
-  report.boundary_points = points.size();
-  report.uncovered_points = static_cast<std::size_t>(std::count(hosts.begin(), hosts.end(), kNoVertex));
+  Hosted hosted;
+  timed("hosts", [&] { hosted = find_hosts(mesh, target, report); });
 
-  std::fprintf(stderr, "points %zu uncovered %zu\n", points.size(), report.uncovered_points);
-  PatchRules rules{boundary, {options.deviation_diagonals * diagonal, diagonal}, points, reach};
+  PatchRules rules{target.boundary, {target.deviation_mm, diagonal}, hosted.points, reach};
+  rules.far_reach_mm = hosted.far_reach_mm;
   const double goal = sine_squared_of_deg(options.min_dihedral_deg);
   const double good = sine_squared_of_deg(35);
   const double threshold = sine_squared_of_deg(options.decimate_dihedral_deg);
   int round = 0;
   const auto in_patches = [&](const std::string& name, const auto& improve) {
     on_round(round);
-    timed(name, [&] { improve_in_patches(mesh, hosts, rules, round++, improve); });
-    {
-      const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
-      std::vector<double> dev(mesh.points.size(), -1);
-      for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
-        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
-        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; dev[v] = std::max(dev[v], boundary.sample(mesh.points[v], mesh.materials[t], o).deviation_mm); }
-      }
-      std::size_t c[5] = {0,0,0,0,0};
-      for (double d : dev) { if (d >= 0) ++c[0]; d /= diagonal; if (d > .16) ++c[1]; if (d > .5) ++c[2]; if (d > 1) ++c[3]; if (d > 1e9) ++c[4]; }
-      std::fprintf(stderr, "   surface vertices %zu, >.16: %zu >.5: %zu >1: %zu inf: %zu\n", c[0], c[1], c[2], c[3], c[4]);
-    }
-    std::fprintf(stderr, "%s %zu tets %.2f deg %.2f s\n", name.c_str(), mesh.tets.size(),
-                 degrees(worst_sine_squared(mesh)), report.part_seconds.back().second);
+    timed(name, [&] { improve_in_patches(mesh, hosted.hosts, rules, round++, improve); });
   };
 
+  const auto correct = [&] {
+    if (target.correct) {
+      timed("volumes", [&] { target.correct(mesh); });
+    }
+  };
+
+  const auto repair = [&](Patch& patch) {
+    for (int k = 0; k < 3; ++k) {
+      climb_vertices(patch, goal);
+      remove_edges(patch, goal);
+      collapse_edges(patch, {goal, 2.5, 0, true});
+    }
+    climb_vertices(patch, goal);
+  };
+  const auto near_bad = [&](const std::string& name) {
+    on_round(round);
+    timed(name, [&] { improve_near_bad_tets(mesh, hosted.hosts, rules, round++, goal, 4, repair); });
+  };
+  for (int i = 0; i < options.untangle_rounds && worst_sine_squared(mesh) < 0; ++i) {
+    near_bad("untangle");
+  }
   const RelaxOptions relax{options.surface_weight, 0.5, 0.01 * diagonal};
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < (options.only_bad ? 0 : 2); ++i) {
     in_patches("relax", [&](Patch& patch) {
       relax_vertices(patch, relax);
       relax_vertices(patch, relax);
@@ -131,9 +195,9 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       relax_vertices(patch, relax);
       pull_strays(patch, relax);
     });
-    timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
+    correct();
   }
-  for (int i = 0; i < options.decimation_rounds; ++i) {
+  for (int i = 0; i < (options.only_bad ? 0 : options.decimation_rounds); ++i) {
     in_patches("decimate", [&](Patch& patch) {
       collapse_edges(patch, {threshold, 2.5, 0, false});
       remove_edges(patch, good);
@@ -147,28 +211,10 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
       remove_edges(patch, good);
       flatten_interfaces(patch, threshold);
     });
-    timed("volumes", [&] { correct_volumes(mesh, image, boundary); });
+    correct();
   }
-  for (int i = 0; i < options.repair_rounds; ++i) {
-    in_patches("repair", [&](Patch& patch) {
-      for (int k = 0; k < 3; ++k) {
-        climb_vertices(patch, goal);
-        remove_edges(patch, goal);
-        collapse_edges(patch, {goal, 2.5, 0, true});
-      }
-      climb_vertices(patch, goal);
-    });
-  }
-  {
-    const auto nb = tet_neighbours(mesh.tets, mesh.points.size());
-    const auto sets = vertex_materials(mesh.tets, mesh.materials, nb, mesh.points.size());
-    std::vector<double> dev(mesh.points.size(), -1); std::vector<std::pair<int,int>> pr(mesh.points.size());
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) for (int n = 0; n < 4; ++n) {
-        MaterialId o = nb[t][n] == kNoTet ? 0 : mesh.materials[nb[t][n]];
-        if (o < mesh.materials[t]) for (auto f : kTetFace[n]) { VertexId v = mesh.tets[t][f]; double d = boundary.sample(mesh.points[v], mesh.materials[t], o).deviation_mm; if (d > dev[v]) { dev[v] = d; pr[v] = {mesh.materials[t], o}; } } }
-    std::map<int, int> by, all; int shown = 0;
-    for (VertexId v = 0; v < dev.size(); ++v) { if (dev[v] >= 0) ++all[sets[v].size]; if (dev[v] > 0.5 * diagonal) { ++by[sets[v].size]; if (shown++ % 40 == 0) { Vec3 x = mesh.points[v]; auto s = image.frame.spacing_mm; std::fprintf(stderr, "stuck pair %d %d dev %.2f set", pr[v].first, pr[v].second, dev[v] / diagonal); for (int i = 0; i < sets[v].size; ++i) std::fprintf(stderr, " %d", sets[v].ids[i]); std::fprintf(stderr, " at %.2f %.2f %.2f:", x.x / s.x, x.y / s.y, x.z / s.z); for (int dz = -1; dz <= 1; ++dz) { for (int dy = -1; dy <= 1; ++dy) for (int dx = -1; dx <= 1; ++dx) std::fprintf(stderr, " %d", image.at_or_background(std::lround(x.x/s.x)+dx, std::lround(x.y/s.y)+dy, std::lround(x.z/s.z)+dz)); std::fprintf(stderr, " |"); } std::fprintf(stderr, "\n"); } } }
-    for (auto [k, c] : by) std::fprintf(stderr, "set size %d: %d of %d\n", k, c, all[k]);
+  for (int i = 0; i < options.repair_rounds && worst_sine_squared(mesh) < goal; ++i) {
+    near_bad("repair");
   }
   drop_unused_vertices(mesh);
   report.tets_after = mesh.tets.size();

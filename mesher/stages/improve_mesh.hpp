@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesher/improve/image_boundary.hpp"
+#include "mesher/stages/interface_points.hpp"
 #include "mesher/stages/material_mesh.hpp"
 
 namespace cbc3d {
@@ -23,8 +24,22 @@ struct ImproveOptions {
   double deviation_diagonals = 0.15;  ///< facets stay so near to the boundary, voxel diagonals
   double surface_weight = 1000;        ///< pull to the boundary against the tets' shape
   int decimation_rounds = 3;
-  int repair_rounds = 3;
+  int repair_rounds = 3;    ///< at most, until the goal is reached
+  int untangle_rounds = 3;  ///< at most, before all else, while a tet is flat or inside out
+  bool only_bad = false;    ///< only tets below the goal and what is round them; no relaxation, no decimation
+  bool far_points = false;  ///< points that nothing is near are kept from growing lonelier, too
   ImageBoundaryOptions boundary;
+};
+
+/// What a mesh is improved towards.
+struct ImproveTarget {
+  const Boundary& boundary;
+  const std::vector<InterfacePoint>& points;  ///< to be kept within reach of a surface vertex; may be empty
+  double scale_mm = 1;                        ///< unit of distances from the boundary: the voxel diagonal
+  double deviation_mm = 0.15;                 ///< facets stay so near to the boundary
+  double reach_mm = 0.9;                      ///< of a surface vertex
+  bool far_points = false;                    ///< as in ImproveOptions
+  std::function<void(const MaterialMesh&)> correct;  ///< moves the boundary by what the volumes lack; may be null
 };
 
 struct ImproveReport {
@@ -35,7 +50,12 @@ struct ImproveReport {
   std::vector<std::pair<std::string, double>> part_seconds;
 };
 
-/// Improves a mesh of tets (local mm) towards `image`. Same result at any thread count.
+/// Improves a mesh of tets (local mm) towards `target`. Same result at any thread count. Tets that are not positive
+/// are untangled where that is possible, and else stay.
+ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, const ImproveOptions& options,
+                           const std::function<void(int round)>& on_round);
+
+/// The same towards the boundary that `image` means, volumes corrected.
 ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
                            const std::function<void(int round)>& on_round);
 
