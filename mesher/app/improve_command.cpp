@@ -22,7 +22,7 @@ namespace cbc3d {
 namespace {
 
 // Facets stay so many times nearer to the boundary than the surface's vertices to what they stand for.
-constexpr double kReachOfDeviation = 6;
+constexpr double kReachOfDeviation = 10;
 
 struct ImproveCommand {
   std::string mesh, image, out, report_file;
@@ -77,7 +77,7 @@ ImproveOptions options_of(const ImproveCommand& command) {
   options.min_dihedral_deg = command.min_dihedral_deg;
   options.decimate_dihedral_deg = command.min_dihedral_deg;
   options.only_bad = command.no_decimation;
-  options.far_points = true;
+  options.keep_distances = command.max_deviation_mm == 0;
   options.repair_rounds = 12;
   options.untangle_rounds = 6;
   return options;
@@ -89,8 +89,8 @@ void improve(const ImproveCommand& command, Subject& subject, const std::functio
     const double diagonal_mm = subject.image.frame.voxel_diagonal_mm();
     if (command.max_deviation_mm > 0) {
       options.reach_diagonals = command.max_deviation_mm / diagonal_mm;
-      options.deviation_diagonals = options.reach_diagonals / kReachOfDeviation;
     }
+    options.deviation_diagonals = options.reach_diagonals / kReachOfDeviation;
     subject.max_deviation_mm = options.reach_diagonals * diagonal_mm;
     subject.improve = improve_mesh(subject.mesh, subject.image, options, on_round);
     return;
@@ -217,7 +217,8 @@ void add_improve_command(CLI::App& app, int& exit_code) {
   improve
       ->add_option("--max-deviation", command->max_deviation_mm,
                    "every boundary voxel (without image: surface vertex of the input) keeps a surface vertex so near, "
-                   "facets stay within a sixth of it, mm [.9 voxel diagonals; half the mean surface edge]")
+                   "facets stay within a tenth of it, mm [as the mesh has it, at most .9 voxel diagonals; "
+                   "half the mean surface edge]")
       ->check(CLI::PositiveNumber);
   improve->add_flag("--no-decimation", command->no_decimation,
                     "repair what is below the goal and leave all else as it is");

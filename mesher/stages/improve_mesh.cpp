@@ -72,6 +72,7 @@ struct Hosted {
   std::vector<InterfacePoint> points;
   std::vector<VertexId> hosts;
   std::vector<float> far_reach_mm;
+  double reach_mm;
 };
 
 /// What no vertex of both materials is near goes to the nearest surface vertex of its own one, and is to stay as
@@ -107,15 +108,23 @@ void host_far_points(const MaterialMesh& mesh, const std::vector<MaterialSet>& s
 }
 
 Hosted find_hosts(const MaterialMesh& mesh, const ImproveTarget& target, ImproveReport& report) {
-  Hosted hosted{target.points, {}, {}};
+  Hosted hosted{target.points, {}, {}, target.reach_mm};
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   const auto sets = vertex_materials(mesh.tets, mesh.materials, neighbours, mesh.points.size());
   hosted.hosts = nearest_hosts(hosted.points, mesh.points, sets, target.reach_mm);
   report.boundary_points = hosted.points.size();
   report.uncovered_points =
       static_cast<std::size_t>(std::count(hosted.hosts.begin(), hosted.hosts.end(), kNoVertex));
-  if (target.far_points && report.uncovered_points > 0) {
-    host_far_points(mesh, sets, target.reach_mm, 0.05 * target.scale_mm, hosted);
+  if (target.keep_distances) {
+    const double leeway_mm = 0.05 * target.scale_mm;
+    double farthest_mm = 0;
+    for (std::size_t p = 0; p < hosted.points.size(); ++p) {
+      if (hosted.hosts[p] != kNoVertex) {
+        farthest_mm = std::max(farthest_mm, (mesh.points[hosted.hosts[p]] - hosted.points[p].centre()).norm());
+      }
+    }
+    host_far_points(mesh, sets, target.reach_mm, leeway_mm, hosted);
+    hosted.reach_mm = std::min(hosted.reach_mm, farthest_mm + leeway_mm);
   }
   return hosted;
 }
@@ -132,7 +141,7 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   ImageBoundary boundary(image, options.boundary);
   const std::vector<InterfacePoint> points = interface_points(image);
   const ImproveTarget target{boundary, points, diagonal, options.deviation_diagonals * diagonal,
-                             options.reach_diagonals * diagonal, options.far_points,
+                             options.reach_diagonals * diagonal, options.keep_distances,
                              [&](const MaterialMesh& now) { correct_volumes(now, image, boundary); }};
   return improve_mesh(mesh, target, options, on_round);
 }
@@ -143,17 +152,16 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, cons
   report.tets_before = mesh.tets.size();
   report.min_dihedral_before_deg = degrees(worst_sine_squared(mesh));
   const double diagonal = target.scale_mm;
-  const double reach = target.reach_mm;
   const auto timed = [&](const std::string& name, const auto& part) {
     const Stopwatch watch;
     part();
     report.part_seconds.emplace_back(name, watch.seconds());
   };
 
-  Hosted hosted;
+  Hosted hosted{};
   timed("hosts", [&] { hosted = find_hosts(mesh, target, report); });
 
-  PatchRules rules{target.boundary, {target.deviation_mm, diagonal}, hosted.points, reach};
+  PatchRules rules{target.boundary, {target.deviation_mm, diagonal}, hosted.points, hosted.reach_mm};
   rules.far_reach_mm = hosted.far_reach_mm;
   const double goal = sine_squared_of_deg(options.min_dihedral_deg);
   const double good = sine_squared_of_deg(35);
@@ -178,12 +186,14 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, cons
     }
     climb_vertices(patch, goal);
   };
-  const auto near_bad = [&](const std::string& name) {
+  // The first rounds stay close to the bad tets, which may be many; what resists gets more room.
+  const auto near_bad = [&](const std::string& name, double below, int rings) {
+    std::size_t bad = 0;
     on_round(round);
-    timed(name, [&] { improve_near_bad_tets(mesh, hosted.hosts, rules, round++, goal, 4, repair); });
+    timed(name, [&] { bad = improve_near_bad_tets(mesh, hosted.hosts, rules, round++, below, rings, repair); });
+    return bad;
   };
-  for (int i = 0; i < options.untangle_rounds && worst_sine_squared(mesh) < 0; ++i) {
-    near_bad("untangle");
+  for (int i = 0; i < options.untangle_rounds && near_bad("untangle", 0, i + 1) > 0; ++i) {
   }
   const RelaxOptions relax{options.surface_weight, 0.5, 0.01 * diagonal};
   for (int i = 0; i < (options.only_bad ? 0 : 2); ++i) {
@@ -213,8 +223,7 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, cons
     });
     correct();
   }
-  for (int i = 0; i < options.repair_rounds && worst_sine_squared(mesh) < goal; ++i) {
-    near_bad("repair");
+  for (int i = 0; i < options.repair_rounds && near_bad("repair", goal, std::min(4, i + 1)) > 0; ++i) {
   }
   drop_unused_vertices(mesh);
   report.tets_after = mesh.tets.size();

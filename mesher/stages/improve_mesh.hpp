@@ -27,7 +27,9 @@ struct ImproveOptions {
   int repair_rounds = 3;    ///< at most, until the goal is reached
   int untangle_rounds = 3;  ///< at most, before all else, while a tet is flat or inside out
   bool only_bad = false;    ///< only tets below the goal and what is round them; no relaxation, no decimation
-  bool far_points = false;  ///< points that nothing is near are kept from growing lonelier, too
+  /// The reach is no larger than the largest distance of a point within reach was, and points beyond it are kept
+  /// from growing lonelier: the distances of a finished mesh are not given away for fewer elements.
+  bool keep_distances = false;
   ImageBoundaryOptions boundary;
 };
 
@@ -38,7 +40,7 @@ struct ImproveTarget {
   double scale_mm = 1;                        ///< unit of distances from the boundary: the voxel diagonal
   double deviation_mm = 0.15;                 ///< facets stay so near to the boundary
   double reach_mm = 0.9;                      ///< of a surface vertex
-  bool far_points = false;                    ///< as in ImproveOptions
+  bool keep_distances = false;                ///< as in ImproveOptions
   std::function<void(const MaterialMesh&)> correct;  ///< moves the boundary by what the volumes lack; may be null
 };
 
