@@ -102,7 +102,8 @@ void improve(const ImproveCommand& command, Subject& subject, const std::functio
   }
   subject.max_deviation_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.5 * edge_mm;
   const ImproveTarget target{boundary, boundary.points(),  edge_mm, subject.max_deviation_mm / kReachOfDeviation,
-                             subject.max_deviation_mm, false, {}};
+                             subject.max_deviation_mm, false, {},
+                             boundary.hosts(subject.max_deviation_mm)};
   subject.improve = improve_mesh(subject.mesh, target, options, on_round);
 }
 

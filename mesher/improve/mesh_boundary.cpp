@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <tuple>
 
 namespace cbc3d {
 namespace {
@@ -182,14 +182,20 @@ class MeshBoundary::FacetTree {
 };
 
 MeshBoundary::MeshBoundary(const MaterialMesh& mesh) {
-  const std::vector<InterfaceFacet> facets = interface_facets(mesh, cells_of_vertices(mesh));
+  const std::vector<Facet> facets = facets_of(mesh);
   double edges_mm = 0;
-  for (const InterfaceFacet& f : facets) {
-    auto& tree = trees_[{f.lower, f.higher}];
-    if (tree == nullptr) {
-      tree = std::make_unique<FacetTree>();
+  FacetTree* tree_of_last = nullptr;
+  std::pair<MaterialId, MaterialId> last;
+  for (const Facet& f : facets) {
+    if (tree_of_last == nullptr || last != std::pair{f.lower, f.higher}) {
+      last = {f.lower, f.higher};
+      auto& tree = trees_[last];
+      if (tree == nullptr) {
+        tree = std::make_unique<FacetTree>();
+      }
+      tree_of_last = tree.get();
     }
-    tree->add({f.nodes[0], f.nodes[1], f.nodes[2]});
+    tree_of_last->add(f.nodes);
     for (std::size_t i = 0; i < 3; ++i) {
       edges_mm += (mesh.points[f.nodes[i]] - mesh.points[f.nodes[(i + 1) % 3]]).norm();
     }
@@ -203,21 +209,58 @@ MeshBoundary::MeshBoundary(const MaterialMesh& mesh) {
 
 MeshBoundary::~MeshBoundary() = default;
 
-void MeshBoundary::add_points(const MaterialMesh& mesh, const std::vector<InterfaceFacet>& facets) {
-  const auto add = [&](const Vec3& x, const InterfaceFacet& f) {
-    points_.push_back(
-        {{static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)}, f.higher, f.lower});
-  };
-  std::set<std::tuple<VertexId, MaterialId, MaterialId>> seen;
-  for (const InterfaceFacet& f : facets) {
-    const auto& n = f.nodes;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (seen.emplace(n[i], f.lower, f.higher).second) {
-        add(mesh.points[n[i]], f);
+std::vector<MeshBoundary::Facet> MeshBoundary::facets_of(const MaterialMesh& mesh) {
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  std::vector<Facet> facets;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const TetId next = neighbours[t][n];
+      const MaterialId other = next == kNoTet ? kBackground : mesh.materials[next];
+      if (other < mesh.materials[t]) {  // the face looks outwards, the normal is to look inwards
+        const auto& face = kTetFace[n];
+        const auto& nodes = mesh.tets[t];
+        facets.push_back({{nodes[face[0]], nodes[face[2]], nodes[face[1]]}, other, mesh.materials[t]});
       }
     }
-    add((mesh.points[n[0]] + mesh.points[n[1]] + mesh.points[n[2]]) / 3, f);
   }
+  return facets;
+}
+
+void MeshBoundary::add_points(const MaterialMesh& mesh, const std::vector<Facet>& facets) {
+  const auto add = [&](const Vec3& x, MaterialId lower, MaterialId higher, VertexId vertex) {
+    points_.push_back(
+        {{static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)}, higher, lower});
+    nearest_.push_back(vertex);
+    to_nearest_mm_.push_back((mesh.points[vertex] - x).norm());
+  };
+  std::vector<std::tuple<VertexId, MaterialId, MaterialId>> corners;
+  corners.reserve(3 * facets.size());
+  for (const Facet& f : facets) {
+    for (const VertexId v : f.nodes) {
+      corners.emplace_back(v, f.lower, f.higher);
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (const auto& [v, lower, higher] : corners) {
+    add(mesh.points[v], lower, higher, v);
+  }
+  for (const Facet& f : facets) {
+    const Vec3 centre = (mesh.points[f.nodes[0]] + mesh.points[f.nodes[1]] + mesh.points[f.nodes[2]]) / 3;
+    add(centre, f.lower, f.higher, *std::min_element(f.nodes.begin(), f.nodes.end(), [&](VertexId v, VertexId w) {
+      return (mesh.points[v] - centre).squared_norm() < (mesh.points[w] - centre).squared_norm();
+    }));
+  }
+}
+
+std::vector<VertexId> MeshBoundary::hosts(double reach_mm) const {
+  std::vector<VertexId> hosts = nearest_;
+  for (std::size_t p = 0; p < hosts.size(); ++p) {
+    if (to_nearest_mm_[p] > reach_mm) {
+      hosts[p] = kNoVertex;
+    }
+  }
+  return hosts;
 }
 
 BoundarySample MeshBoundary::sample(const Vec3& x, MaterialId a, MaterialId b) const {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mesher/improve/boundary.hpp"
-#include "mesher/stages/interface_facets.hpp"
 #include "mesher/stages/interface_points.hpp"
+#include "mesher/stages/material_mesh.hpp"
 
 namespace cbc3d {
 
@@ -26,15 +26,25 @@ class MeshBoundary : public Boundary {
 
   /// The surface's vertices and the centres of its facets, with the materials they part.
   [[nodiscard]] const std::vector<InterfacePoint>& points() const { return points_; }
+  /// A vertex of the mesh that stands for each point, kNoVertex where it is farther away than the reach.
+  [[nodiscard]] std::vector<VertexId> hosts(double reach_mm) const;
   /// Mean length of the facets' sides, mm; 0 without facets.
   [[nodiscard]] double mean_edge_mm() const { return mean_edge_mm_; }
 
  private:
   class FacetTree;
-  void add_points(const MaterialMesh& mesh, const std::vector<InterfaceFacet>& facets);
+  /// A facet, its right-hand normal towards the higher material.
+  struct Facet {
+    std::array<VertexId, 3> nodes;
+    MaterialId lower, higher;
+  };
+  static std::vector<Facet> facets_of(const MaterialMesh& mesh);
+  void add_points(const MaterialMesh& mesh, const std::vector<Facet>& facets);
 
   std::map<std::pair<MaterialId, MaterialId>, std::unique_ptr<FacetTree>> trees_;  // by lower, higher
   std::vector<InterfacePoint> points_;
+  std::vector<VertexId> nearest_;       // of each point
+  std::vector<double> to_nearest_mm_;
   double mean_edge_mm_ = 0;
 };
 

@@ -11,6 +11,7 @@ namespace cbc3d {
 namespace {
 
 constexpr std::uint32_t kShared = 0xFFFFFFFEU;
+constexpr VertexId kNew = 0x80000000U;
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 
 /// Three axes at right angles, others in every round.
@@ -187,7 +188,8 @@ void set_up_vertices(Patch& patch, const std::vector<std::uint32_t>& tets_at) {
 }
 
 struct PatchResult {
-  TetNodes tets;
+  TetNodes tets;            // new vertices as kNew and their number
+  std::vector<Vec3> added;  // where those are
   std::vector<MaterialId> materials;
 };
 
@@ -232,11 +234,15 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
         patch.cover.for_each(v, [&](PointId point) { hosts[point] = local.vertices[v]; });
       }
     }
+    const auto known = static_cast<VertexId>(local.vertices.size());
+    for (VertexId v = known; v < patch.mesh.vertex_count(); ++v) {
+      results[p].added.push_back(patch.mesh.point(v));
+    }
     for (TetId t = 0; t < patch.mesh.tet_slots(); ++t) {
       if (patch.mesh.alive(t)) {
         std::array<VertexId, 4> nodes = patch.mesh.nodes(t);
         for (VertexId& v : nodes) {
-          v = local.vertices[v];
+          v = v < known ? local.vertices[v] : kNew + (v - known);
         }
         results[p].tets.push_back(nodes);
         results[p].materials.push_back(patch.mesh.material(t));
@@ -245,7 +251,14 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
   }
   mesh.tets.clear();
   mesh.materials.clear();
-  for (const PatchResult& result : results) {
+  for (PatchResult& result : results) {
+    const auto first = static_cast<VertexId>(mesh.points.size());
+    for (auto& tet : result.tets) {
+      for (VertexId& v : tet) {
+        v = v >= kNew ? first + (v - kNew) : v;
+      }
+    }
+    mesh.points.insert(mesh.points.end(), result.added.begin(), result.added.end());
     mesh.tets.insert(mesh.tets.end(), result.tets.begin(), result.tets.end());
     mesh.materials.insert(mesh.materials.end(), result.materials.begin(), result.materials.end());
   }

@@ -7,6 +7,7 @@
 #include "mesher/core/progress.hpp"
 #include "mesher/improve/edge_collapse.hpp"
 #include "mesher/improve/edge_removal.hpp"
+#include "mesher/improve/edge_split.hpp"
 #include "mesher/improve/mesh_patches.hpp"
 #include "mesher/improve/tet_shape.hpp"
 #include "mesher/improve/vertex_moves.hpp"
@@ -108,6 +109,10 @@ void host_far_points(const MaterialMesh& mesh, const std::vector<MaterialSet>& s
 }
 
 Hosted find_hosts(const MaterialMesh& mesh, const ImproveTarget& target, ImproveReport& report) {
+  if (!target.hosts.empty()) {
+    report.boundary_points = target.points.size();
+    return {target.points, target.hosts, {}, target.reach_mm};
+  }
   Hosted hosted{target.points, {}, {}, target.reach_mm};
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   const auto sets = vertex_materials(mesh.tets, mesh.materials, neighbours, mesh.points.size());
@@ -178,11 +183,15 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, cons
     }
   };
 
+  bool may_split = false;
   const auto repair = [&](Patch& patch) {
     for (int k = 0; k < 3; ++k) {
       climb_vertices(patch, goal);
       remove_edges(patch, goal);
       collapse_edges(patch, {goal, 2.5, 0, true});
+      if (may_split && k == 1) {
+        split_edges(patch, goal);
+      }
     }
     climb_vertices(patch, goal);
   };
@@ -224,6 +233,7 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, cons
     correct();
   }
   for (int i = 0; i < options.repair_rounds && near_bad("repair", goal, std::min(4, i + 1)) > 0; ++i) {
+    may_split = true;  // only where all else has failed
   }
   drop_unused_vertices(mesh);
   report.tets_after = mesh.tets.size();

@@ -42,6 +42,7 @@ struct ImproveTarget {
   double reach_mm = 0.9;                      ///< of a surface vertex
   bool keep_distances = false;                ///< as in ImproveOptions
   std::function<void(const MaterialMesh&)> correct;  ///< moves the boundary by what the volumes lack; may be null
+  std::vector<VertexId> hosts = {};                  ///< of the points, where known; else they are looked for
 };
 
 struct ImproveReport {
