@@ -98,11 +98,17 @@ void improve(const ImproveCommand& command, Subject& subject, const std::functio
   const MeshBoundary boundary(subject.mesh);
   const double edge_mm = boundary.mean_edge_mm();
   if (!(edge_mm > 0)) {
-    throw InputError("'" + command.mesh + "': the tets' surface is a single point; give a mesh with a volume");
+    throw InputError("'" + command.mesh +
+                     "': the tets' surface is a single point; give a mesh with a volume");
   }
   subject.max_deviation_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.5 * edge_mm;
-  const ImproveTarget target{boundary, boundary.points(),  edge_mm, subject.max_deviation_mm / kReachOfDeviation,
-                             subject.max_deviation_mm, false, {},
+  const ImproveTarget target{boundary,
+                             boundary.points(),
+                             edge_mm,
+                             subject.max_deviation_mm / kReachOfDeviation,
+                             subject.max_deviation_mm,
+                             false,
+                             {},
                              boundary.hosts(subject.max_deviation_mm)};
   subject.improve = improve_mesh(subject.mesh, target, options, on_round);
 }
@@ -117,15 +123,17 @@ void warn(const ImproveCommand& command, Subject& subject) {
     warnings.push_back(count(subject.after.not_positive) + " of " + count(subject.before.not_positive) +
                        " flat or inverted tets could not be untangled; they are as they were or nearly so");
   } else if (subject.after.min_dihedral_deg < command.min_dihedral_deg - 0.005) {
-    warnings.push_back(text_of("the smallest dihedral angle is %.2f degrees, below the goal of %.4g; a larger "
-                               "--max-deviation leaves more room",
-                               subject.after.min_dihedral_deg, command.min_dihedral_deg));
+    warnings.push_back(
+        text_of("the smallest dihedral angle is %.2f degrees, below the goal of %.4g; a larger "
+                "--max-deviation leaves more room",
+                subject.after.min_dihedral_deg, command.min_dihedral_deg));
   }
   for (std::size_t m = 1; command.image.empty() && m < subject.image.labels.size(); ++m) {
     const double change = 100 * (subject.after.volume_mm3[m] / subject.before.volume_mm3[m] - 1);
     if (std::fabs(change) > 1) {
-      warnings.push_back(text_of("label %.0f changed its volume by %.2f %%; a smaller --max-deviation keeps it",
-                                 subject.image.labels[m], change));
+      warnings.push_back(
+          text_of("label %.0f changed its volume by %.2f %%; a smaller --max-deviation keeps it",
+                  subject.image.labels[m], change));
     }
   }
 }
@@ -161,8 +169,7 @@ nlohmann::json report_json(const ImproveCommand& command, const Subject& subject
           {"before", measures_json(subject.before)},
           {"after", measures_json(subject.after)},
           {"labels", labels},
-          {"orientation",
-           {{"degenerate", subject.orient.degenerate}, {"turned", subject.orient.turned}}},
+          {"orientation", {{"degenerate", subject.orient.degenerate}, {"turned", subject.orient.turned}}},
           {"seconds", {{"improve", total_s}, {"stages", stages}}},
           {"warnings", subject.warnings},
           {"peak_rss_bytes", process_peak_rss_bytes()}};
@@ -197,8 +204,8 @@ void run(ImproveCommand command) {
     progress.line("warning: " + warning, true);
   }
   progress.line("wrote " + command.out + ": " + counts_text(out) +
-                text_of(", smallest dihedral angle %.2f degrees (before %.2f)", subject.after.min_dihedral_deg,
-                        subject.before.min_dihedral_deg));
+                text_of(", smallest dihedral angle %.2f degrees (before %.2f)",
+                        subject.after.min_dihedral_deg, subject.before.min_dihedral_deg));
 }
 
 }  // namespace
@@ -206,7 +213,8 @@ void run(ImproveCommand command) {
 void add_improve_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<ImproveCommand>();
   CLI::App* improve = app.add_subcommand(
-      "improve", "the improver and decimator alone, on any labelled tet mesh, towards an image's boundaries or its own");
+      "improve",
+      "the improver and decimator alone, on any labelled tet mesh, towards an image's boundaries or its own");
   improve->add_option("mesh", command->mesh, "mesh of labelled tets: .vtu, .vtk or .msh")->required();
   improve->add_option("image", command->image,
                       "label image that the mesh was made from; without it the mesh keeps its own surfaces");
@@ -216,15 +224,18 @@ void add_improve_command(CLI::App& app, int& exit_code) {
                    "goal: no dihedral angle below this, none above 180 minus it, degrees [20]")
       ->check(CLI::Range(0.1, 60.0));
   improve
-      ->add_option("--max-deviation", command->max_deviation_mm,
-                   "every boundary voxel (without image: surface vertex of the input) keeps a surface vertex so near, "
-                   "facets stay within a tenth of it, mm [as the mesh has it, at most .9 voxel diagonals; "
-                   "half the mean surface edge]")
+      ->add_option(
+          "--max-deviation", command->max_deviation_mm,
+          "every boundary voxel (without image: surface vertex of the input) keeps a surface vertex so near, "
+          "facets stay within a tenth of it, mm [as the mesh has it, at most .9 voxel diagonals; "
+          "half the mean surface edge]")
       ->check(CLI::PositiveNumber);
   improve->add_flag("--no-decimation", command->no_decimation,
                     "repair what is below the goal and leave all else as it is");
-  improve->add_option("--report", command->report_file, "JSON file with counts, angles and volumes before and after");
-  improve->add_option("--threads", command->threads, "threads of all pools [all cores]")->check(CLI::Range(0, 1024));
+  improve->add_option("--report", command->report_file,
+                      "JSON file with counts, angles and volumes before and after");
+  improve->add_option("--threads", command->threads, "threads of all pools [all cores]")
+      ->check(CLI::Range(0, 1024));
   improve->add_flag("--quiet", command->quiet, "no progress");
   improve->callback([command, &exit_code] {
     run(*command);

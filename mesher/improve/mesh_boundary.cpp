@@ -247,9 +247,10 @@ void MeshBoundary::add_points(const MaterialMesh& mesh, const std::vector<Facet>
   }
   for (const Facet& f : facets) {
     const Vec3 centre = (mesh.points[f.nodes[0]] + mesh.points[f.nodes[1]] + mesh.points[f.nodes[2]]) / 3;
-    add(centre, f.lower, f.higher, *std::min_element(f.nodes.begin(), f.nodes.end(), [&](VertexId v, VertexId w) {
-      return (mesh.points[v] - centre).squared_norm() < (mesh.points[w] - centre).squared_norm();
-    }));
+    add(centre, f.lower, f.higher,
+        *std::min_element(f.nodes.begin(), f.nodes.end(), [&](VertexId v, VertexId w) {
+          return (mesh.points[v] - centre).squared_norm() < (mesh.points[w] - centre).squared_norm();
+        }));
   }
 }
 

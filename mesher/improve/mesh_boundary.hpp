@@ -1,7 +1,9 @@
 // The boundary that a mesh itself has, as the reference for its improvement where there is no image.
 //
-// Notation: reference  the facets between two materials of the mesh as it was; the nearest place on them is exact
-//                      (Ericson, Real-Time Collision Detection, 2005, 5.1.5), found in a tree of boxes a pair.
+// Notation: reference  the facets between two materials of the mesh as it was; the nearest place on them is
+// exact
+//                      (Ericson, Real-Time Collision Detection, 2005, 5.1.5), found in a tree of boxes a
+//                      pair.
 #pragma once
 
 #include <map>
@@ -43,7 +45,7 @@ class MeshBoundary : public Boundary {
 
   std::map<std::pair<MaterialId, MaterialId>, std::unique_ptr<FacetTree>> trees_;  // by lower, higher
   std::vector<InterfacePoint> points_;
-  std::vector<VertexId> nearest_;       // of each point
+  std::vector<VertexId> nearest_;  // of each point
   std::vector<double> to_nearest_mm_;
   double mean_edge_mm_ = 0;
 };

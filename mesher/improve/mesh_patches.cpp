@@ -18,10 +18,10 @@ constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 Mat3 axes_of_round(int round) {
   const double turn = 0.7 * round + 0.2;
   const double tilt = 0.5 * round + 0.1;
-  const Mat3 about_z = {{Vec3{std::cos(turn), -std::sin(turn), 0}, Vec3{std::sin(turn), std::cos(turn), 0},
-                         Vec3{0, 0, 1}}};
-  const Mat3 about_x = {{Vec3{1, 0, 0}, Vec3{0, std::cos(tilt), -std::sin(tilt)},
-                         Vec3{0, std::sin(tilt), std::cos(tilt)}}};
+  const Mat3 about_z = {
+      {Vec3{std::cos(turn), -std::sin(turn), 0}, Vec3{std::sin(turn), std::cos(turn), 0}, Vec3{0, 0, 1}}};
+  const Mat3 about_x = {
+      {Vec3{1, 0, 0}, Vec3{0, std::cos(tilt), -std::sin(tilt)}, Vec3{0, std::sin(tilt), std::cos(tilt)}}};
   return about_z * about_x;
 }
 
@@ -52,7 +52,9 @@ class Bisection {
     }
   }
 
-  [[nodiscard]] std::size_t parts() const { return first_.size() - 1; }
+  [[nodiscard]] std::size_t parts() const {
+    return first_.size() - 1;
+  }
   /// The tets of a part, ascending.
   [[nodiscard]] std::vector<TetId> part(std::size_t p) const {
     std::vector<TetId> tets(order_.begin() + static_cast<std::ptrdiff_t>(first_[p]),
@@ -147,7 +149,8 @@ struct LocalMesh {
   std::vector<std::uint8_t> locked;
   std::vector<std::uint32_t> tets_at;  // tets round each vertex
 
-  LocalMesh(const MaterialMesh& mesh, const std::vector<TetId>& part, const std::vector<std::uint32_t>& owner) {
+  LocalMesh(const MaterialMesh& mesh, const std::vector<TetId>& part,
+            const std::vector<std::uint32_t>& owner) {
     for (const TetId t : part) {
       vertices.insert(vertices.end(), mesh.tets[t].begin(), mesh.tets[t].end());
     }
@@ -161,8 +164,8 @@ struct LocalMesh {
     for (const TetId t : part) {
       std::array<VertexId, 4> nodes{};
       for (std::size_t n = 0; n < 4; ++n) {
-        nodes[n] = static_cast<VertexId>(
-            std::lower_bound(vertices.begin(), vertices.end(), mesh.tets[t][n]) - vertices.begin());
+        nodes[n] = static_cast<VertexId>(std::lower_bound(vertices.begin(), vertices.end(), mesh.tets[t][n]) -
+                                         vertices.begin());
         ++tets_at[nodes[n]];
       }
       tets.push_back(nodes);
@@ -214,8 +217,19 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
     LocalMesh local(mesh, parts[p], owner);
     Patch patch{TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
                            std::move(local.locked)),
-                SurfaceCover(rules.points, rules.reach_mm, rules.far_reach_mm), {}, rules.boundary, rules.guards, {}, {}, {}, {}, {},
-                {}, {}, {}, {}};
+                SurfaceCover(rules.points, rules.reach_mm, rules.far_reach_mm),
+                {},
+                rules.boundary,
+                rules.guards,
+                {},
+                {},
+                {},
+                {},
+                {},
+                {},
+                {},
+                {},
+                {}};
     patch.sets.resize(local.vertices.size());
     patch.cover.resize(local.vertices.size());
     set_up_vertices(patch, local.tets_at);
@@ -272,7 +286,8 @@ std::size_t mark_bad(const MaterialMesh& mesh, double goal, std::vector<std::uin
 #pragma omp parallel for schedule(static) reduction(+ : bad)
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& n = mesh.tets[t];
-    chosen[t] = min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) < goal;
+    chosen[t] =
+        min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) < goal;
     bad += chosen[t];
   }
   return bad;
@@ -297,8 +312,9 @@ void grow(const MaterialMesh& mesh, std::vector<std::uint8_t>& chosen) {
 
 }  // namespace
 
-std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules, int round,
-                                  double goal_sine_squared, int rings, const std::function<void(Patch&)>& improve) {
+std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules,
+                                  int round, double goal_sine_squared, int rings,
+                                  const std::function<void(Patch&)>& improve) {
   std::vector<std::uint8_t> chosen(mesh.tets.size(), 0);
   const std::size_t bad = mark_bad(mesh, goal_sine_squared, chosen);
   if (bad == 0) {

@@ -12,8 +12,8 @@ namespace cbc3d {
 /// The outer faces of a vertex's star: with the vertex in front each is one of its tets, positively oriented.
 using Link = std::vector<std::array<Vec3, 3>>;
 
-/// The worst angle of a tet, as sin^2; where it is not positive something below that falls with its volume, so that
-/// there is a way up even for a tangled one.
+/// The worst angle of a tet, as sin^2; where it is not positive something below that falls with its volume,
+/// so that there is a way up even for a tangled one.
 inline double height(const Vec3& x, const std::array<Vec3, 3>& face) {
   const double sine_squared = min_sine_squared(x, face[0], face[1], face[2]);
   if (sine_squared >= 0) {

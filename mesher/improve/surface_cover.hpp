@@ -1,5 +1,5 @@
-// Which surface vertex stands for which boundary voxel: the guard that keeps every part of the image's boundary
-// within a distance of the mesh's surface vertices while the mesh is thinned out.
+// Which surface vertex stands for which boundary voxel: the guard that keeps every part of the image's
+// boundary within a distance of the mesh's surface vertices while the mesh is thinned out.
 //
 // Points and hosts are those of interface_points.hpp.
 #pragma once
@@ -20,15 +20,16 @@ inline constexpr PointId kNoPoint = 0xFFFFFFFFU;
 class SurfaceCover {
  public:
   /// `far_reach_mm`: points with a reach of their own have it there, 0 the others; may be empty.
-  SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm, std::span<const float> far_reach_mm)
+  SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm,
+               std::span<const float> far_reach_mm)
       : points_(&points), reach_squared_(reach_mm * reach_mm), far_reach_mm_(far_reach_mm) {}
 
   /// Makes room for vertices that have no points yet.
   void resize(std::size_t vertices) { first_.resize(vertices, kNoPoint); }
   void add(VertexId host, PointId point);
 
-  /// True when every point of v finds a host once v is at `to` (or gone, when `to` is null): v itself or one of
-  /// `others`, which are at their places in `mesh` and whose materials are `sets`. What has to change is
+  /// True when every point of v finds a host once v is at `to` (or gone, when `to` is null): v itself or one
+  /// of `others`, which are at their places in `mesh` and whose materials are `sets`. What has to change is
   /// remembered for commit.
   bool can_release(VertexId v, const Vec3* to, std::span<const VertexId> others, const TetComplex& mesh,
                    const std::vector<MaterialSet>& sets);

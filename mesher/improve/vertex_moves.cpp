@@ -136,9 +136,7 @@ struct VertexMover {
     return true;
   }
 
-  bool strays(VertexId v) {
-    return load(v) && deviation(patch.mesh.point(v)) > patch.guards.deviation_mm;
-  }
+  bool strays(VertexId v) { return load(v) && deviation(patch.mesh.point(v)) > patch.guards.deviation_mm; }
 
   bool relax(VertexId v, const RelaxOptions& options) {
     if (!load(v)) {

@@ -65,7 +65,8 @@ void require_improvable(const Mesh& mesh) {
 MaterialMesh number_labels(Mesh mesh, std::vector<Label>& labels) {
   const std::vector<Label> values = labels_of(mesh);
   if (values.size() >= std::numeric_limits<MaterialId>::max()) {
-    throw InputError("the mesh has " + std::to_string(values.size()) + " labels; at most 65534 can be told apart");
+    throw InputError("the mesh has " + std::to_string(values.size()) +
+                     " labels; at most 65534 can be told apart");
   }
   labels.assign(1, 0);
   labels.insert(labels.end(), values.begin(), values.end());
@@ -96,7 +97,9 @@ TetMeasures measure_tets(const MaterialMesh& mesh, std::size_t materials) {
     const auto extremes = volume > 0 ? extreme_cosines(p) : std::array<double, 2>{1, -1};
     cosines = {std::max(cosines[0], extremes[0]), std::min(cosines[1], extremes[1])};
   }
-  const auto degrees = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; };
+  const auto degrees = [](double cosine) {
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  };
   measures.min_dihedral_deg = degrees(cosines[0]);
   measures.max_dihedral_deg = degrees(cosines[1]);
   return measures;

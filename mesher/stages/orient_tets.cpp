@@ -42,8 +42,8 @@ bool agree(const std::array<VertexId, 4>& a, std::size_t n, const std::array<Ver
 }
 
 /// Follows the faces from one tet, turning what disagrees; the tets in order of first sight.
-std::vector<TetId> follow(MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours, TetId first,
-                          std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& turned) {
+std::vector<TetId> follow(MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
+                          TetId first, std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& turned) {
   std::vector<TetId> part = {first};
   seen[first] = 1;
   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -82,7 +82,8 @@ OrientReport orient_tets(MaterialMesh& mesh) {
   try {
     neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   } catch (const JobError&) {
-    throw InputError("the mesh has a face that belongs to more than two tets; give one whose tets meet face to face");
+    throw InputError(
+        "the mesh has a face that belongs to more than two tets; give one whose tets meet face to face");
   }
   std::vector<std::uint8_t> seen(mesh.tets.size(), 0);
   std::vector<std::uint8_t> turned(mesh.tets.size(), 0);

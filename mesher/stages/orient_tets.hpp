@@ -6,14 +6,14 @@
 namespace cbc3d {
 
 struct OrientReport {
-  std::size_t degenerate = 0;  ///< tets that had a vertex twice, left out
-  std::size_t turned = 0;      ///< tets whose node order was mirrored
+  std::size_t degenerate = 0;    ///< tets that had a vertex twice, left out
+  std::size_t turned = 0;        ///< tets whose node order was mirrored
   std::size_t not_positive = 0;  ///< tets that lie inside out among their neighbours, or flat
 };
 
-/// Leaves out tets with a repeated vertex and gives all tets that hang together by faces one orientation, the one
-/// in which their volumes add up to more than nothing. What is not positive then is tangled, not misnumbered.
-/// Throws InputError where a face belongs to more than two tets.
+/// Leaves out tets with a repeated vertex and gives all tets that hang together by faces one orientation, the
+/// one in which their volumes add up to more than nothing. What is not positive then is tangled, not
+/// misnumbered. Throws InputError where a face belongs to more than two tets.
 OrientReport orient_tets(MaterialMesh& mesh);
 
 /// Tets without positive volume.
