@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/improve/tet_shape.hpp"
+
 namespace cbc3d {
 namespace {
 
 constexpr std::uint32_t kShared = 0xFFFFFFFEU;
+constexpr VertexId kNew = 0x80000000U;
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
 
 /// Three axes at right angles, others in every round.
@@ -188,7 +191,8 @@ void set_up_vertices(Patch& patch, const std::vector<std::uint32_t>& tets_at) {
 }
 
 struct PatchResult {
-  TetNodes tets;
+  TetNodes tets;            // new vertices as kNew and their number
+  std::vector<Vec3> added;  // where those are
   std::vector<MaterialId> materials;
 };
 
@@ -202,7 +206,10 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
   for (std::size_t p = 0; p < parts.size(); ++p) {
     parts[p] = bisection.part(p);
   }
-  const std::vector<std::uint32_t> owner = owners(mesh, parts);
+  std::vector<std::uint32_t> owner = owners(mesh, parts);
+  for (std::size_t v = 0; v < rules.locked.size(); ++v) {
+    owner[v] = rules.locked[v] != 0 ? kShared : owner[v];
+  }
   const PointsOfVertices hosted(hosts, mesh.points.size());
   std::vector<PatchResult> results(parts.size());
 #pragma omp parallel for schedule(dynamic)
@@ -210,7 +217,7 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
     LocalMesh local(mesh, parts[p], owner);
     Patch patch{TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
                            std::move(local.locked)),
-                SurfaceCover(rules.points, rules.reach_mm),
+                SurfaceCover(rules.points, rules.reach_mm, rules.far_reach_mm),
                 {},
                 rules.boundary,
                 rules.guards,
@@ -241,11 +248,15 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
         patch.cover.for_each(v, [&](PointId point) { hosts[point] = local.vertices[v]; });
       }
     }
+    const auto known = static_cast<VertexId>(local.vertices.size());
+    for (VertexId v = known; v < patch.mesh.vertex_count(); ++v) {
+      results[p].added.push_back(patch.mesh.point(v));
+    }
     for (TetId t = 0; t < patch.mesh.tet_slots(); ++t) {
       if (patch.mesh.alive(t)) {
         std::array<VertexId, 4> nodes = patch.mesh.nodes(t);
         for (VertexId& v : nodes) {
-          v = local.vertices[v];
+          v = v < known ? local.vertices[v] : kNew + (v - known);
         }
         results[p].tets.push_back(nodes);
         results[p].materials.push_back(patch.mesh.material(t));
@@ -254,10 +265,89 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
   }
   mesh.tets.clear();
   mesh.materials.clear();
-  for (const PatchResult& result : results) {
+  for (PatchResult& result : results) {
+    const auto first = static_cast<VertexId>(mesh.points.size());
+    for (auto& tet : result.tets) {
+      for (VertexId& v : tet) {
+        v = v >= kNew ? first + (v - kNew) : v;
+      }
+    }
+    mesh.points.insert(mesh.points.end(), result.added.begin(), result.added.end());
     mesh.tets.insert(mesh.tets.end(), result.tets.begin(), result.tets.end());
     mesh.materials.insert(mesh.materials.end(), result.materials.begin(), result.materials.end());
   }
+}
+
+namespace {
+
+/// Marks the tets below the goal; returns their number.
+std::size_t mark_bad(const MaterialMesh& mesh, double goal, std::vector<std::uint8_t>& chosen) {
+  std::size_t bad = 0;
+#pragma omp parallel for schedule(static) reduction(+ : bad)
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets[t];
+    chosen[t] =
+        min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) < goal;
+    bad += chosen[t];
+  }
+  return bad;
+}
+
+/// Adds the tets that have a vertex with the chosen ones in common.
+void grow(const MaterialMesh& mesh, std::vector<std::uint8_t>& chosen) {
+  std::vector<std::uint8_t> touched(mesh.points.size(), 0);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (chosen[t] != 0) {
+      for (const VertexId v : mesh.tets[t]) {
+        touched[v] = 1;
+      }
+    }
+  }
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets[t];
+    chosen[t] |= touched[n[0]] | touched[n[1]] | touched[n[2]] | touched[n[3]];
+  }
+}
+
+}  // namespace
+
+std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules,
+                                  int round, double goal_sine_squared, int rings,
+                                  const std::function<void(Patch&)>& improve) {
+  std::vector<std::uint8_t> chosen(mesh.tets.size(), 0);
+  const std::size_t bad = mark_bad(mesh, goal_sine_squared, chosen);
+  if (bad == 0) {
+    return 0;
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    grow(mesh, chosen);
+  }
+  MaterialMesh near;
+  near.points = std::move(mesh.points);
+  std::vector<std::uint8_t> locked(near.points.size(), 0);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < chosen.size(); ++t) {
+    if (chosen[t] != 0) {
+      near.tets.push_back(mesh.tets[t]);
+      near.materials.push_back(mesh.materials[t]);
+      continue;
+    }
+    for (const VertexId v : mesh.tets[t]) {
+      locked[v] = 1;
+    }
+    mesh.tets[kept] = mesh.tets[t];
+    mesh.materials[kept++] = mesh.materials[t];
+  }
+  PatchRules near_rules = rules;
+  near_rules.locked = locked;
+  improve_in_patches(near, hosts, near_rules, round, improve);
+  mesh.points = std::move(near.points);
+  mesh.tets.resize(kept);
+  mesh.materials.resize(kept);
+  mesh.tets.insert(mesh.tets.end(), near.tets.begin(), near.tets.end());
+  mesh.materials.insert(mesh.materials.end(), near.materials.begin(), near.materials.end());
+  return bad;
 }
 
 }  // namespace cbc3d

@@ -16,8 +16,10 @@ struct PatchRules {
   const Boundary& boundary;
   Guards guards;
   const std::vector<InterfacePoint>& points;
-  double reach_mm = 0;             ///< of a host
-  std::size_t patch_tets = 15000;  ///< tets of a patch, about
+  double reach_mm = 0;                        ///< of a host
+  std::size_t patch_tets = 15000;             ///< tets of a patch, about
+  std::span<const float> far_reach_mm = {};   ///< a point's own reach where above 0; empty: none has one
+  std::span<const std::uint8_t> locked = {};  ///< vertices that must stay; empty: none
 };
 
 /// Cuts the mesh, calls improve(patch) for every patch in parallel, and puts the results back. `hosts` has
@@ -25,5 +27,11 @@ struct PatchRules {
 /// `mesh.points`.
 void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules, int round,
                         const std::function<void(Patch&)>& improve);
+
+/// The same for the tets below the goal and `rings` layers of tets round them alone: the rest is not looked
+/// at, so that a mesh with few bad tets takes little time. Returns the number of tets below the goal.
+std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules,
+                                  int round, double goal_sine_squared, int rings,
+                                  const std::function<void(Patch&)>& improve);
 
 }  // namespace cbc3d

@@ -19,8 +19,10 @@ inline constexpr PointId kNoPoint = 0xFFFFFFFFU;
 /// The hosts of some of the points, as lists at the vertices.
 class SurfaceCover {
  public:
-  SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm)
-      : points_(&points), reach_squared_(reach_mm * reach_mm) {}
+  /// `far_reach_mm`: points with a reach of their own have it there, 0 the others; may be empty.
+  SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm,
+               std::span<const float> far_reach_mm)
+      : points_(&points), reach_squared_(reach_mm * reach_mm), far_reach_mm_(far_reach_mm) {}
 
   /// Makes room for vertices that have no points yet.
   void resize(std::size_t vertices) { first_.resize(vertices, kNoPoint); }
@@ -48,11 +50,16 @@ class SurfaceCover {
     PointId next;
   };
   [[nodiscard]] bool reaches(const Vec3& at, PointId point) const {
-    return ((*points_)[point].centre() - at).squared_norm() <= reach_squared_;
+    const double squared = ((*points_)[point].centre() - at).squared_norm();
+    if (far_reach_mm_.empty() || far_reach_mm_[point] == 0) {
+      return squared <= reach_squared_;
+    }
+    return squared <= static_cast<double>(far_reach_mm_[point]) * far_reach_mm_[point];
   }
 
   const std::vector<InterfacePoint>* points_;
   double reach_squared_;
+  std::span<const float> far_reach_mm_;
   std::vector<PointId> first_;  // into links_, one a vertex
   std::vector<Link> links_;
   std::vector<VertexId> new_hosts_;  // of the links of the released vertex, in order; kNoVertex: stays

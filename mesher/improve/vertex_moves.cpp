@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/improve/star_height.hpp"
 #include "mesher/improve/tet_shape.hpp"
 
 namespace cbc3d {
 namespace {
-
-/// The outer faces of a vertex's star: with the vertex in front each is one of its tets, positively oriented.
-using Link = std::vector<std::array<Vec3, 3>>;
 
 void load_link(const TetComplex& mesh, VertexId v, std::span<const TetId> star, Link& link) {
   link.clear();
@@ -185,45 +183,13 @@ struct VertexMover {
     return false;
   }
 
-  /// The worst angle of the star with v at x, given up below `floor`.
-  [[nodiscard]] double worst(const Vec3& x, double floor) const {
-    double smallest = 1;
-    for (const auto& face : link) {
-      smallest = std::min(smallest, min_sine_squared(x, face[0], face[1], face[2]));
-      if (smallest <= floor) {
-        return smallest;
-      }
-    }
-    return smallest;
-  }
-
-  /// Direction in which the worst tet of the star improves most.
-  [[nodiscard]] Vec3 ascent(const Vec3& x, double h) const {
-    const std::array<Vec3, 3>* bad = &link.front();
-    double smallest = 2;
-    for (const auto& face : link) {
-      const double s = min_sine_squared(x, face[0], face[1], face[2]);
-      if (s < smallest) {
-        smallest = s;
-        bad = &face;
-      }
-    }
-    Vec3 gradient;
-    for (int axis = 0; axis < 3; ++axis) {
-      Vec3 at = x;
-      at[axis] += 1e-4 * h;
-      gradient[axis] = min_sine_squared(at, (*bad)[0], (*bad)[1], (*bad)[2]) - smallest;
-    }
-    return gradient.normalized();
-  }
-
   bool climb(VertexId v, double goal) {
     if (!load(v)) {
       return false;
     }
     const Vec3 start = patch.mesh.point(v);
     const double h = std::sqrt(mean_squared_distance(link, start));
-    double best = worst(start, -2);
+    double best = worst_height(link, start, -1e300);
     if (best >= goal) {
       return false;
     }
@@ -240,12 +206,10 @@ struct VertexMover {
   /// Takes the first step of a length that lifts the worst angle.
   bool climb_step(VertexId v, double length, double limit, double& best) {
     const Vec3 x = patch.mesh.point(v);
-    const Vec3 up = ascent(x, length);
-    const std::array<Vec3, 7> directions = {
-        up, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}};
-    for (const Vec3& direction : directions) {
+    const Vec3 up = steepest_ascent(link, x, length);
+    for (const Vec3& direction : climb_directions(up)) {
       const Vec3 to = x + length * direction;
-      const double after = worst(to, best);
+      const double after = worst_height(link, to, best);
       if (after > best && (pairs.empty() || deviation(to) <= limit) && move(v, to)) {
         best = after;
         return true;

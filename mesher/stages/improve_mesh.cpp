@@ -8,6 +8,7 @@
 #include "mesher/core/progress.hpp"
 #include "mesher/improve/edge_collapse.hpp"
 #include "mesher/improve/edge_removal.hpp"
+#include "mesher/improve/edge_split.hpp"
 #include "mesher/improve/mesh_patches.hpp"
 #include "mesher/improve/surface_crossings.hpp"
 #include "mesher/improve/tet_shape.hpp"
@@ -68,75 +69,130 @@ void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, ImageBou
   boundary.set_offsets(std::move(offsets));
 }
 
-/// Looks for hosts of the points that have none; vertices that moved to the boundary may be near now.
-void find_hosts(const MaterialMesh& mesh, const std::vector<InterfacePoint>& points, double reach_mm,
-                std::vector<VertexId>& hosts) {
-  std::vector<PointId> without;
-  std::vector<InterfacePoint> wanted;
-  for (PointId p = 0; p < points.size(); ++p) {
-    if (hosts[p] == kNoVertex) {
-      without.push_back(p);
-      wanted.push_back(points[p]);
+/// Points with their hosts, and the reach of those that none was within reach of.
+struct Hosted {
+  std::vector<InterfacePoint> points;
+  std::vector<VertexId> hosts;
+  std::vector<float> far_reach_mm;
+  double reach_mm;
+};
+
+/// What no vertex of both materials is near goes to the nearest surface vertex of its own one, and is to stay
+/// as near to one as that: the points without host otherwise grow lonelier unseen.
+void host_far_points(const MaterialMesh& mesh, const std::vector<MaterialSet>& sets, double reach_mm,
+                     double leeway_mm, Hosted& hosted) {
+  hosted.far_reach_mm.assign(hosted.points.size(), 0);
+  std::vector<std::size_t> lost;
+  for (std::size_t p = 0; p < hosted.points.size(); ++p) {
+    if (hosted.hosts[p] == kNoVertex) {
+      hosted.points[p].other = hosted.points[p].own;
+      lost.push_back(p);
     }
   }
-  if (without.empty()) {
-    return;
+  for (int doubling = 0; doubling < 12 && !lost.empty(); ++doubling, reach_mm *= 2) {
+    std::vector<InterfacePoint> points;
+    for (const std::size_t p : lost) {
+      points.push_back(hosted.points[p]);
+    }
+    const std::vector<VertexId> hosts = nearest_hosts(points, mesh.points, sets, reach_mm);
+    std::vector<std::size_t> still_lost;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      if (hosts[i] == kNoVertex) {
+        still_lost.push_back(lost[i]);
+        continue;
+      }
+      hosted.hosts[lost[i]] = hosts[i];
+      const double distance_mm = (mesh.points[hosts[i]] - points[i].centre()).norm();
+      hosted.far_reach_mm[lost[i]] = static_cast<float>(distance_mm + leeway_mm);
+    }
+    lost = std::move(still_lost);
   }
-  const auto sets = vertex_materials(mesh.tets, mesh.materials, tet_neighbours(mesh.tets, mesh.points.size()),
-                                     mesh.points.size());
-  const std::vector<VertexId> found = nearest_hosts(wanted, mesh.points, sets, reach_mm);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    hosts[without[i]] = found[i];
+}
+
+Hosted find_hosts(const MaterialMesh& mesh, const ImproveTarget& target, ImproveReport& report) {
+  if (!target.hosts.empty()) {
+    report.boundary_points = target.points.size();
+    return {target.points, target.hosts, {}, target.reach_mm};
   }
+  Hosted hosted{target.points, {}, {}, target.reach_mm};
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  const auto sets = vertex_materials(mesh.tets, mesh.materials, neighbours, mesh.points.size());
+  hosted.hosts = nearest_hosts(hosted.points, mesh.points, sets, target.reach_mm);
+  report.boundary_points = hosted.points.size();
+  if (target.keep_distances) {
+    const double leeway_mm = 0.05 * target.scale_mm;
+    double farthest_mm = 0;
+    for (std::size_t p = 0; p < hosted.points.size(); ++p) {
+      if (hosted.hosts[p] != kNoVertex) {
+        farthest_mm =
+            std::max(farthest_mm, (mesh.points[hosted.hosts[p]] - hosted.points[p].centre()).norm());
+      }
+    }
+    host_far_points(mesh, sets, target.reach_mm, leeway_mm, hosted);
+    hosted.reach_mm = std::min(hosted.reach_mm, farthest_mm + leeway_mm);
+  }
+  return hosted;
 }
 
 double degrees(double sine_squared) {
   return sine_squared <= 0 ? 0 : std::asin(std::sqrt(std::min(1.0, sine_squared))) * 180 / std::numbers::pi;
 }
 
+/// Looks again for hosts of the points that have none; vertices that have moved to the boundary may be near
+/// now.
+void find_missing_hosts(const MaterialMesh& mesh, Hosted& hosted) {
+  std::vector<std::size_t> without;
+  std::vector<InterfacePoint> wanted;
+  for (std::size_t p = 0; p < hosted.points.size(); ++p) {
+    if (hosted.hosts[p] == kNoVertex) {
+      without.push_back(p);
+      wanted.push_back(hosted.points[p]);
+    }
+  }
+  if (without.empty()) {
+    return;
+  }
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  const auto sets = vertex_materials(mesh.tets, mesh.materials, neighbours, mesh.points.size());
+  const std::vector<VertexId> found = nearest_hosts(wanted, mesh.points, sets, hosted.reach_mm);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    hosted.hosts[without[i]] = found[i];
+  }
+}
+
 /// The schedule: rounds in patches, and between them what needs the whole mesh.
 class Improver {
  public:
-  Improver(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
+  Improver(MaterialMesh& mesh, const ImproveTarget& target, const ImproveOptions& options,
            const std::function<void(int)>& on_round)
       : mesh_(mesh),
-        image_(image),
+        target_(target),
         options_(options),
         on_round_(on_round),
-        diagonal_mm_(image.frame.voxel_diagonal_mm()),
-        reach_mm_(options.reach_mm > 0 ? options.reach_mm : 0.9 * diagonal_mm_),
         goal_(sine_squared_of_deg(options.min_dihedral_deg + kMarginDeg)),
-        boundary_(image, options.boundary),
-        relax_{options.surface_weight, 0.5, 0.01 * diagonal_mm_},
-        longest_mm_(image.material_count(), std::numeric_limits<double>::infinity()) {
-    for (std::size_t m = 1; m < longest_mm_.size(); ++m) {
-      const auto size = options.size_mm.find(image.labels[m]);
-      longest_mm_[m] = size != options.size_mm.end() ? size->second : longest_mm_[m];
-    }
-  }
+        relax_{options.surface_weight, 0.5, 0.01 * target.scale_mm} {}
 
   ImproveReport run() {
     report_.tets_before = mesh_.tets.size();
     report_.min_dihedral_before_deg = degrees(worst_sine_squared(mesh_));
-    timed("hosts", [&] {
-      points_ = interface_points(image_);
-      hosts_.assign(points_.size(), kNoVertex);
-    });
-    find_hosts_and_volumes();
-    for (int i = 0; i < 2; ++i) {
+    timed("hosts", [this] { hosted_ = find_hosts(mesh_, target_, report_); });
+    for (int i = 0; i < options_.untangle_rounds && repair("untangling", 0, i) > 0; ++i) {
+    }
+    for (int i = 0; i < (options_.only_bad ? 0 : kFittings); ++i) {
       fit();
     }
-    for (int i = 0; i < options_.decimation_rounds; ++i) {
+    for (int i = 0; i < (options_.only_bad ? 0 : options_.decimation_rounds); ++i) {
       decimate();
     }
-    for (int i = 0; i < options_.repair_rounds && worst_sine_squared(mesh_) < goal_; ++i) {
-      repair(i);
+    for (int i = 0; i < options_.repair_rounds && repair("repair", goal_, i) > 0; ++i) {
     }
     drop_unused_vertices(mesh_);
-    order_for_locality(mesh_);
-    timed("crossings", [this] {
-      report_.crossings_left = separate_crossings(mesh_, {0.08 * diagonal_mm_, goal_, 12});
-    });
+    if (!options_.only_bad) {
+      order_for_locality(mesh_);
+      timed("crossings", [this] {
+        report_.crossings_left = separate_crossings(mesh_, {0.08 * target_.scale_mm, goal_, 12});
+      });
+    }
     finish();
     return std::move(report_);
   }
@@ -145,10 +201,11 @@ class Improver {
   static constexpr double kMarginDeg = 1e-3;  // rounding when the mesh is written must not undo the goal
   static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
   static constexpr double kLongestGrowth = 2.5;
+  static constexpr int kFittings = 2;
 
   /// Vertices to the boundary, tets into shape.
   void fit() {
-    in_patches("fitting", reach_mm_, options_.deviation_diagonals, [this](Patch& patch) {
+    in_patches("fitting", [this](Patch& patch) {
       relax_vertices(patch, relax_);
       relax_vertices(patch, relax_);
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
@@ -156,12 +213,12 @@ class Improver {
       relax_vertices(patch, relax_);
       pull_strays(patch, relax_);
     });
-    find_hosts_and_volumes();
   }
 
   void decimate() {
-    const CollapseOptions collapse{goal_, kLongestGrowth, &longest_mm_, false};
-    in_patches("decimation", reach_mm_, options_.deviation_diagonals, [&](Patch& patch) {
+    const CollapseOptions collapse{goal_, kLongestGrowth,
+                                   target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false};
+    in_patches("decimation", [&](Patch& patch) {
       collapse_edges(patch, collapse);
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
@@ -174,37 +231,54 @@ class Improver {
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
     });
-    find_hosts_and_volumes();
   }
 
-  /// The worst angles. They are rare and stuck: from round to round they may cost a little more distance.
-  void repair(int round) {
-    const double reach_mm =
-        std::max(reach_mm_, std::min(1.05 * diagonal_mm_, reach_mm_ + 0.05 * round * diagonal_mm_));
-    const double deviation =
-        std::max(options_.deviation_diagonals, std::min(0.4, options_.deviation_diagonals + 0.05 * round));
-    in_patches("repair", reach_mm, deviation, [this](Patch& patch) {
-      for (int turn = 0; turn < 3; ++turn) {
-        climb_vertices(patch, goal_);
-        remove_edges(patch, goal_);
-        collapse_edges(patch, {goal_, kLongestGrowth, nullptr, true});
-      }
-      climb_vertices(patch, goal_);
+  /// The tets worse than `below`, and what is round them; returns how many there are. They are rare and
+  /// stuck: from round to round more round them may move, edges may be split, and, unless the distances are
+  /// to be kept, a little more distance is given away.
+  std::size_t repair(const std::string& name, double below, int round) {
+    PatchRules rules = rules_now();
+    if (!target_.keep_distances) {
+      const double unit = target_.scale_mm;
+      rules.reach_mm = std::max(rules.reach_mm, std::min(1.05 * unit, rules.reach_mm + 0.05 * round * unit));
+      double& deviation_mm = rules.guards.deviation_mm;
+      deviation_mm = std::max(deviation_mm, std::min(0.4 * unit, deviation_mm + 0.05 * round * unit));
+    }
+    on_round_(round_);
+    std::size_t bad = 0;
+    timed(name, [&] {
+      bad = improve_near_bad_tets(mesh_, hosted_.hosts, rules, round_++, below, std::min(4, round + 1),
+                                  [&](Patch& patch) { repair_patch(patch, below > 0 && round > 0); });
     });
+    return bad;
+  }
+
+  void repair_patch(Patch& patch, bool may_split) const {
+    for (int turn = 0; turn < 3; ++turn) {
+      climb_vertices(patch, goal_);
+      remove_edges(patch, goal_);
+      collapse_edges(patch, {goal_, kLongestGrowth, nullptr, true});
+      if (may_split && turn == 1) {
+        split_edges(patch, goal_);
+      }
+    }
+    climb_vertices(patch, goal_);
+  }
+
+  [[nodiscard]] PatchRules rules_now() const {
+    PatchRules rules{
+        target_.boundary, {target_.deviation_mm, target_.scale_mm}, hosted_.points, hosted_.reach_mm};
+    rules.far_reach_mm = hosted_.far_reach_mm;
+    return rules;
   }
 
   template <typename Improve>
-  void in_patches(const std::string& name, double reach_mm, double deviation_diagonals,
-                  const Improve& improve) {
+  void in_patches(const std::string& name, const Improve& improve) {
     on_round_(round_);
-    const PatchRules rules{boundary_, {deviation_diagonals * diagonal_mm_, diagonal_mm_}, points_, reach_mm};
-    timed(name, [&] { improve_in_patches(mesh_, hosts_, rules, round_++, improve); });
-  }
-
-  void find_hosts_and_volumes() {
-    timed("hosts", [this] { find_hosts(mesh_, points_, reach_mm_, hosts_); });
-    if (round_ > 0) {
-      timed("volumes", [this] { correct_volumes(mesh_, image_, boundary_); });
+    timed(name, [&] { improve_in_patches(mesh_, hosted_.hosts, rules_now(), round_++, improve); });
+    timed("hosts", [this] { find_missing_hosts(mesh_, hosted_); });
+    if (target_.correct) {
+      timed("volumes", [this] { target_.correct(mesh_); });
     }
   }
 
@@ -222,32 +296,53 @@ class Improver {
   }
 
   void finish() {
-    report_.boundary_points = points_.size();
-    report_.uncovered_points = static_cast<std::size_t>(std::count(hosts_.begin(), hosts_.end(), kNoVertex));
+    report_.uncovered_points =
+        static_cast<std::size_t>(std::count(hosted_.hosts.begin(), hosted_.hosts.end(), kNoVertex));
     report_.rounds = round_;
     report_.tets_after = mesh_.tets.size();
     report_.min_dihedral_after_deg = degrees(worst_sine_squared(mesh_));
   }
 
   MaterialMesh& mesh_;
-  const LabelImage& image_;
+  const ImproveTarget& target_;
   const ImproveOptions& options_;
   const std::function<void(int)>& on_round_;
-  double diagonal_mm_, reach_mm_, goal_;
-  ImageBoundary boundary_;
+  double goal_;
   RelaxOptions relax_;
-  std::vector<double> longest_mm_;  // edges of each material
-  std::vector<InterfacePoint> points_;
-  std::vector<VertexId> hosts_;
+  Hosted hosted_{};
   int round_ = 0;
   ImproveReport report_;
 };
+
+/// The longest edge of each material.
+std::vector<double> longest_edges(const LabelImage& image, const std::map<Label, double>& size_mm) {
+  std::vector<double> longest(image.material_count(), std::numeric_limits<double>::infinity());
+  for (std::size_t m = 1; m < longest.size(); ++m) {
+    const auto size = size_mm.find(image.labels[m]);
+    longest[m] = size != size_mm.end() ? size->second : longest[m];
+  }
+  return longest;
+}
 
 }  // namespace
 
 ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
                            const std::function<void(int round)>& on_round) {
-  return Improver(mesh, image, options, on_round).run();
+  const double diagonal_mm = image.frame.voxel_diagonal_mm();
+  ImageBoundary boundary(image, options.boundary);
+  const std::vector<InterfacePoint> points = interface_points(image);
+  ImproveTarget target{boundary, points, diagonal_mm};
+  target.deviation_mm = options.deviation_diagonals * diagonal_mm;
+  target.reach_mm = options.reach_mm > 0 ? options.reach_mm : 0.9 * diagonal_mm;
+  target.longest_mm = longest_edges(image, options.size_mm);
+  target.keep_distances = options.keep_distances;
+  target.correct = [&](const MaterialMesh& now) { correct_volumes(now, image, boundary); };
+  return improve_mesh(mesh, target, options, on_round);
+}
+
+ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, const ImproveOptions& options,
+                           const std::function<void(int round)>& on_round) {
+  return Improver(mesh, target, options, on_round).run();
 }
 
 }  // namespace cbc3d

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesher/improve/image_boundary.hpp"
+#include "mesher/stages/interface_points.hpp"
 #include "mesher/stages/material_mesh.hpp"
 
 namespace cbc3d {
@@ -26,7 +27,26 @@ struct ImproveOptions {
   std::map<Label, double> size_mm;  ///< the decimation makes no edge of these labels longer
   int decimation_rounds = 3;        ///< 0: as many tets as before
   int repair_rounds = 8;            ///< at most; they end when the goal is reached
+  int untangle_rounds = 3;          ///< at most, before all else, while a tet is flat or inside out
+  bool only_bad = false;  ///< only tets below the goal and what is round them; no relaxation, no decimation
+  /// The reach is no larger than the largest distance of a point within reach was, and points beyond it are
+  /// kept from growing lonelier: the distances of a finished mesh are not given away for fewer elements.
+  bool keep_distances = false;
   ImageBoundaryOptions boundary;
+};
+
+/// What a mesh is improved towards.
+struct ImproveTarget {
+  const Boundary& boundary;
+  const std::vector<InterfacePoint>& points;  ///< to be kept within reach of a surface vertex; may be empty
+  double scale_mm = 1;                        ///< unit of distances from the boundary: the voxel diagonal
+  double deviation_mm = 0.15;                 ///< facets stay so near to the boundary
+  double reach_mm = 0.9;                      ///< of a surface vertex
+  std::vector<double> longest_mm = {};        ///< edges of each material; empty: no limit
+  bool keep_distances = false;                ///< as in ImproveOptions
+  std::function<void(const MaterialMesh&)>
+      correct;                       ///< moves the boundary by what the volumes lack; may be null
+  std::vector<VertexId> hosts = {};  ///< of the points, where known; else they are looked for
 };
 
 struct ImproveReport {
@@ -36,11 +56,16 @@ struct ImproveReport {
   std::size_t boundary_points = 0;
   std::size_t uncovered_points = 0;  ///< without a surface vertex in reach in the end
   std::size_t crossings_left = 0;    ///< pairs of outer facets that cut each other
-  /// Seconds by part: hosts, fitting, volumes, decimation, repair, crossings.
+  /// Seconds by part: hosts, untangling, fitting, volumes, decimation, repair, crossings.
   std::vector<std::pair<std::string, double>> part_seconds;
 };
 
-/// Improves a mesh of tets (local mm) towards `image`. Same result at any thread count.
+/// Improves a mesh of tets (local mm) towards `target`. Same result at any thread count. Tets that are not
+/// positive are untangled where that is possible, and else stay.
+ImproveReport improve_mesh(MaterialMesh& mesh, const ImproveTarget& target, const ImproveOptions& options,
+                           const std::function<void(int round)>& on_round);
+
+/// The same towards the boundary that `image` means, volumes corrected.
 ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
                            const std::function<void(int round)>& on_round);
 

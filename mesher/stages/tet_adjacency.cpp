@@ -29,7 +29,8 @@ struct FaceBuckets {
   std::vector<FaceEntry> faces;
 };
 
-/// Calls f(face's smallest vertex, tet, node) for the faces whose smallest vertex is in [begin, end), in order.
+/// Calls f(face's smallest vertex, tet, node) for the faces whose smallest vertex is in [begin, end), in
+/// order.
 template <typename F>
 void for_each_face(const TetNodes& tets, VertexId begin, VertexId end, const F& f) {
   for (std::size_t t = 0; t < tets.size(); ++t) {
@@ -43,8 +44,8 @@ void for_each_face(const TetNodes& tets, VertexId begin, VertexId end, const F& 
   }
 }
 
-/// Each thread fills the buckets of a range of vertices and passes over all tets for it: reading them again costs
-/// less than the scattered writes, of which every thread has its share.
+/// Each thread fills the buckets of a range of vertices and passes over all tets for it: reading them again
+/// costs less than the scattered writes, of which every thread has its share.
 FaceBuckets bucket_faces(const TetNodes& tets, std::size_t vertex_count) {
   FaceBuckets buckets;
   buckets.first.assign(vertex_count + 1, 0);

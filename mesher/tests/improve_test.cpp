@@ -163,10 +163,10 @@ TEST(ImproveOperations, KeepAllThatTheGuardsPromise) {
       run(0, 0, [](Patch& p) { return relax_vertices(p, kRelax); });
       run(1, 1, [](Patch& p) { return remove_edges(p, kGood); });
       run(2, 0.999 * std::min(worst, kGoal), [](Patch& p) { return flatten_interfaces(p, kGoal); });
-      run(3, kGoal, [](Patch& p) { return collapse_edges(p, {kGoal, 2.5, 0, false}); });
+      run(3, kGoal, [](Patch& p) { return collapse_edges(p, {kGoal, 2.5, nullptr, false}); });
       run(0, 0, [](Patch& p) { return relax_vertices(p, kRelax); });
       run(4, 1, [](Patch& p) { return climb_vertices(p, kGood); });
-      run(5, 1, [](Patch& p) { return collapse_edges(p, {kGood, 2.5, 0, true}); });
+      run(5, 1, [](Patch& p) { return collapse_edges(p, {kGood, 2.5, nullptr, true}); });
     }
     for (std::size_t which = 0; which < 5; ++which) {
       EXPECT_GT(done[which], 0U) << which;
@@ -189,7 +189,7 @@ TEST(ImproveOperations, LeaveVolumesAloneWhereTheBoundaryIsLocked) {
       if (patch.on_boundary(v)) patch.mesh.lock(v);
     }
     done += relax_vertices(patch, kRelax) + remove_edges(patch, kGood) + climb_vertices(patch, kGood) +
-            collapse_edges(patch, {0.05, 2.5, 0, false});
+            collapse_edges(patch, {0.05, 2.5, nullptr, false});
     EXPECT_EQ(flatten_interfaces(patch, 0), 0U);
     EXPECT_EQ(pull_strays(patch, kRelax), 0U);
   });
@@ -208,7 +208,7 @@ TEST(ImproveOperations, RemovalAndCollapseMoveNoVolumeButAtTheBoundary) {
   const auto before = trial.volumes();
   trial.apply([&](Patch& p) {
     remove_edges(p, kGood);
-    collapse_edges(p, {kGoal, 2.5, 0, false});
+    collapse_edges(p, {kGoal, 2.5, nullptr, false});
   });
   for (std::size_t m = 1; m < before.size(); ++m) {
     // A sphere of radius 6 within the guard of .15 diagonals: less than 3 * .26 / 6 of its volume.
@@ -286,7 +286,7 @@ TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
           relax_vertices(p, kRelax);
           remove_edges(p, kGood);
           flatten_interfaces(p, kGoal);
-          collapse_edges(p, {kGoal, 2.5, 0, false});
+          collapse_edges(p, {kGoal, 2.5, nullptr, false});
           climb_vertices(p, kGoal);
         },
         round);

@@ -1,0 +1,240 @@
+#include "mesher/app/improve_command.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "mesher/app/mesh_report.hpp"
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/core/image_io.hpp"
+#include "mesher/core/mesh_io.hpp"
+#include "mesher/core/progress.hpp"
+#include "mesher/core/runtime.hpp"
+#include "mesher/improve/mesh_boundary.hpp"
+#include "mesher/stages/improve_mesh.hpp"
+#include "mesher/stages/labelled_tets.hpp"
+#include "mesher/stages/orient_tets.hpp"
+
+namespace cbc3d {
+namespace {
+
+// Facets stay so many times nearer to the boundary than the surface's vertices to what they stand for.
+constexpr double kReachOfDeviation = 10;
+
+struct ImproveCommand {
+  std::string mesh, image, out, report_file;
+  double min_dihedral_deg = 20;
+  double max_deviation_mm = 0;
+  bool no_decimation = false;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// A mesh under improvement and how it came.
+struct Subject {
+  MaterialMesh mesh;
+  LabelImage image;  ///< an empty one with the mesh's labels where none was given
+  OrientReport orient;
+  TetMeasures before, after;
+  ImproveReport improve;
+  double max_deviation_mm = 0;
+  std::vector<std::string> warnings;
+};
+
+std::string text_of(const char* format, double a, double b) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+Subject read(const ImproveCommand& command) {
+  Subject subject;
+  Mesh mesh = read_mesh(command.mesh);
+  try {
+    require_improvable(mesh);
+    if (command.image.empty()) {
+      subject.mesh = number_labels(std::move(mesh), subject.image.labels);
+    } else {
+      subject.image = read_label_image(command.image);
+      subject.mesh = to_material_mesh(std::move(mesh), subject.image);
+    }
+    subject.orient = orient_tets(subject.mesh);
+    if (subject.mesh.tets.empty()) {
+      throw InputError("all tets of the mesh have a node twice; give one with tets that have a volume");
+    }
+  } catch (const InputError& error) {
+    throw InputError("'" + command.mesh + "': " + error.what());
+  }
+  return subject;
+}
+
+ImproveOptions options_of(const ImproveCommand& command) {
+  ImproveOptions options;
+  options.enabled = true;
+  options.min_dihedral_deg = command.min_dihedral_deg;
+  options.only_bad = command.no_decimation;
+  options.keep_distances = command.max_deviation_mm == 0;
+  options.repair_rounds = 12;
+  options.untangle_rounds = 6;
+  return options;
+}
+
+void improve(const ImproveCommand& command, Subject& subject, const std::function<void(int)>& on_round) {
+  ImproveOptions options = options_of(command);
+  if (!command.image.empty()) {
+    const double diagonal_mm = subject.image.frame.voxel_diagonal_mm();
+    options.reach_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.9 * diagonal_mm;
+    options.deviation_diagonals = options.reach_mm / diagonal_mm / kReachOfDeviation;
+    subject.max_deviation_mm = options.reach_mm;
+    subject.improve = improve_mesh(subject.mesh, subject.image, options, on_round);
+    return;
+  }
+  const MeshBoundary boundary(subject.mesh);
+  const double edge_mm = boundary.mean_edge_mm();
+  if (!(edge_mm > 0)) {
+    throw InputError("'" + command.mesh +
+                     "': the tets' surface is a single point; give a mesh with a volume");
+  }
+  subject.max_deviation_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.5 * edge_mm;
+  ImproveTarget target{boundary, boundary.points(), edge_mm};
+  target.deviation_mm = subject.max_deviation_mm / kReachOfDeviation;
+  target.reach_mm = subject.max_deviation_mm;
+  target.keep_distances = true;
+  target.hosts = boundary.hosts(subject.max_deviation_mm);
+  subject.improve = improve_mesh(subject.mesh, target, options, on_round);
+}
+
+void warn(const ImproveCommand& command, Subject& subject) {
+  auto& warnings = subject.warnings;
+  const auto count = [](std::size_t n) { return std::to_string(n); };
+  if (subject.orient.degenerate > 0) {
+    warnings.push_back(count(subject.orient.degenerate) + " tets had a node twice and were left out");
+  }
+  if (subject.after.not_positive > 0) {
+    warnings.push_back(count(subject.after.not_positive) + " of " + count(subject.before.not_positive) +
+                       " flat or inverted tets could not be untangled; they are as they were or nearly so");
+  } else if (subject.after.min_dihedral_deg < command.min_dihedral_deg - 0.005) {
+    warnings.push_back(
+        text_of("the smallest dihedral angle is %.2f degrees, below the goal of %.4g; a larger "
+                "--max-deviation leaves more room",
+                subject.after.min_dihedral_deg, command.min_dihedral_deg));
+  }
+  for (std::size_t m = 1; command.image.empty() && m < subject.image.labels.size(); ++m) {
+    const double change = 100 * (subject.after.volume_mm3[m] / subject.before.volume_mm3[m] - 1);
+    if (std::fabs(change) > 1) {
+      warnings.push_back(
+          text_of("label %.0f changed its volume by %.2f %%; a smaller --max-deviation keeps it",
+                  subject.image.labels[m], change));
+    }
+  }
+}
+
+nlohmann::json measures_json(const TetMeasures& m) {
+  return {{"vertices", m.vertices},
+          {"tets", m.tets},
+          {"not_positive", m.not_positive},
+          {"min_dihedral_deg", m.min_dihedral_deg},
+          {"max_dihedral_deg", m.max_dihedral_deg}};
+}
+
+nlohmann::json report_json(const ImproveCommand& command, const Subject& subject, double total_s) {
+  nlohmann::json stages = nlohmann::json::array();
+  for (const auto& [name, seconds] : subject.improve.part_seconds) {
+    stages.push_back({{"name", name}, {"seconds", seconds}});
+  }
+  nlohmann::json labels = nlohmann::json::array();
+  for (std::size_t m = 1; m < subject.image.labels.size(); ++m) {
+    labels.push_back({{"label", subject.image.labels[m]},
+                      {"volume_before_mm3", subject.before.volume_mm3[m]},
+                      {"volume_after_mm3", subject.after.volume_mm3[m]}});
+  }
+  return {{"status", "ok"},
+          {"reason", ""},
+          {"version", CBC3D_VERSION},
+          {"options",
+           {{"min_dihedral_deg", command.min_dihedral_deg},
+            {"max_deviation_mm", subject.max_deviation_mm},
+            {"decimation", !command.no_decimation},
+            {"image", command.image},
+            {"threads", command.threads}}},
+          {"before", measures_json(subject.before)},
+          {"after", measures_json(subject.after)},
+          {"labels", labels},
+          {"orientation", {{"degenerate", subject.orient.degenerate}, {"turned", subject.orient.turned}}},
+          {"seconds", {{"improve", total_s}, {"stages", stages}}},
+          {"warnings", subject.warnings},
+          {"peak_rss_bytes", process_peak_rss_bytes()}};
+}
+
+void run(ImproveCommand command) {
+  command.threads = set_thread_count(command.threads);
+  require_writable_mesh_path(command.out);
+  if (!command.report_file.empty()) {
+    require_writable(command.report_file);
+  }
+  Progress progress(command.quiet);
+  progress.step("reading " + command.mesh, 0);
+  Subject subject = read(command);
+  const std::size_t materials = subject.image.labels.size();
+  subject.before = measure_tets(subject.mesh, materials);
+  const Stopwatch watch;
+  improve(command, subject, [&](int round) {
+    progress.step("improvement, round " + std::to_string(round + 1), 0.1 + 0.8 * round / (round + 5.0));
+  });
+  const double seconds = watch.seconds();
+  subject.after = measure_tets(subject.mesh, materials);
+  warn(command, subject);
+  progress.step("writing " + command.out, 0.95);
+  const Mesh out = to_physical_mesh(subject.mesh, subject.image);
+  write_mesh(out, command.out);
+  if (!command.report_file.empty()) {
+    write_text_file(command.report_file, report_json(command, subject, seconds).dump(2) + "\n");
+  }
+  progress.done();
+  for (const std::string& warning : subject.warnings) {
+    progress.line("warning: " + warning, true);
+  }
+  progress.line("wrote " + command.out + ": " + counts_text(out) +
+                text_of(", smallest dihedral angle %.2f degrees (before %.2f)",
+                        subject.after.min_dihedral_deg, subject.before.min_dihedral_deg));
+}
+
+}  // namespace
+
+void add_improve_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<ImproveCommand>();
+  CLI::App* improve = app.add_subcommand(
+      "improve",
+      "the improver and decimator alone, on any labelled tet mesh, towards an image's boundaries or its own");
+  improve->add_option("mesh", command->mesh, "mesh of labelled tets: .vtu, .vtk or .msh")->required();
+  improve->add_option("image", command->image,
+                      "label image that the mesh was made from; without it the mesh keeps its own surfaces");
+  improve->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
+  improve
+      ->add_option("--min-dihedral", command->min_dihedral_deg,
+                   "goal: no dihedral angle below this, none above 180 minus it, degrees [20]")
+      ->check(CLI::Range(0.1, 60.0));
+  improve
+      ->add_option(
+          "--max-deviation", command->max_deviation_mm,
+          "every boundary voxel (without image: surface vertex of the input) keeps a surface vertex so near, "
+          "facets stay within a tenth of it, mm [as the mesh has it, at most .9 voxel diagonals; "
+          "half the mean surface edge]")
+      ->check(CLI::PositiveNumber);
+  improve->add_flag("--no-decimation", command->no_decimation,
+                    "repair what is below the goal and leave all else as it is");
+  improve->add_option("--report", command->report_file,
+                      "JSON file with counts, angles and volumes before and after");
+  improve->add_option("--threads", command->threads, "threads of all pools [all cores]")
+      ->check(CLI::Range(0, 1024));
+  improve->add_flag("--quiet", command->quiet, "no progress");
+  improve->callback([command, &exit_code] {
+    run(*command);
+    exit_code = kExitSuccess;
+  });
+}
+
+}  // namespace cbc3d
