@@ -44,8 +44,8 @@ struct ImproveTarget {
   double reach_mm = 0.9;                      ///< of a surface vertex
   std::vector<double> longest_mm = {};        ///< edges of each material; empty: no limit
   bool keep_distances = false;                ///< as in ImproveOptions
-  std::function<void(const MaterialMesh&)>
-      correct;                       ///< moves the boundary by what the volumes lack; may be null
+  std::function<void(const MaterialMesh&)> correct =
+      {};                            ///< moves the boundary by what the volumes lack; may be null
   std::vector<VertexId> hosts = {};  ///< of the points, where known; else they are looked for
 };
 
