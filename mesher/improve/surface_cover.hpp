@@ -21,7 +21,7 @@ class SurfaceCover {
  public:
   /// `far_reach_mm`: points with a reach of their own have it there, 0 the others; may be empty.
   SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm,
-               std::span<const float> far_reach_mm)
+               std::span<const float> far_reach_mm = {})
       : points_(&points), reach_squared_(reach_mm * reach_mm), far_reach_mm_(far_reach_mm) {}
 
   /// Makes room for vertices that have no points yet.

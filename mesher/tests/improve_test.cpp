@@ -231,8 +231,9 @@ TEST(ImproveOperations, CollapsesStayWithinTheLongestEdge) {
   };
   trial.apply([&](Patch& p) { relax_vertices(p, kRelax); });
   const double limit = 1.3 * longest();
+  const std::vector<double> limits(3, limit);
   std::size_t collapsed = 0;
-  trial.apply([&](Patch& p) { collapsed += collapse_edges(p, {0.05, 10, limit, false}); });
+  trial.apply([&](Patch& p) { collapsed += collapse_edges(p, {0.05, 10, &limits, false}); });
   EXPECT_GT(collapsed, 5U);
   EXPECT_LE(longest(), limit * (1 + 1e-9));
 }
