@@ -66,6 +66,7 @@ class InterfaceCoverage {
     return wanted_.any(row + static_cast<std::size_t>(i_begin), row + static_cast<std::size_t>(i_end));
   }
   [[nodiscard]] std::size_t uncovered_count() const { return uncovered_; }
+  [[nodiscard]] std::size_t point_count() const { return interfaces_.size(); }
 
  private:
   void want(const InterfacePoint& point);

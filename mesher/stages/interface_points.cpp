@@ -117,8 +117,10 @@ bool all_meet_near(const LabelImage& image, const Vec3& local_mm, const Material
   Index3 high;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    low[a] = static_cast<int>(std::floor((local_mm[axis] - reach_mm) / frame.spacing_mm[axis]));
-    high[a] = static_cast<int>(std::floor((local_mm[axis] + reach_mm) / frame.spacing_mm[axis]));
+    // Of needle or plate voxels no more than a few: hundreds lie within reach along their short side.
+    const double reach = std::min(reach_mm / frame.spacing_mm[axis], 4.0);
+    low[a] = static_cast<int>(std::floor(local_mm[axis] / frame.spacing_mm[axis] - reach));
+    high[a] = static_cast<int>(std::floor(local_mm[axis] / frame.spacing_mm[axis] + reach));
   }
   std::array<std::uint8_t, MaterialSet::kCapacity> met{};  // bits of the materials that each has met
   for (int k = low[2]; k <= high[2]; ++k) {

@@ -78,9 +78,13 @@ BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOption
   BccLatticeOptions lattice;
   lattice.spacing_mm =
       options.lattice_spacing_mm > 0 ? options.lattice_spacing_mm : default_lattice_spacing_mm(image.frame);
-  // A wire one voxel wide needs two halvings below the voxel to be held by several tets.
+  // A wire one voxel wide needs two halvings below the voxel to be held by several tets; a twelfth of the
+  // diagonal is less than that unless voxels are needles or plates.
+  const double finest_mm = refine_options(image, options).finest_spacing_mm;
   lattice.finest_spacing_mm =
-      refine_options(image, options).finest_spacing_mm / (options.refine.max_distance_mm > 0 ? 4 : 1);
+      options.refine.max_distance_mm > 0
+          ? std::max(finest_mm / 4, std::min(finest_mm, image.frame.voxel_diagonal_mm() / 12))
+          : finest_mm;
   report.lattice_spacing_mm = lattice.spacing_mm;
   return lattice;
 }

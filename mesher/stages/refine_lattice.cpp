@@ -50,7 +50,7 @@ class Refiner {
       mark_strays();
       mark_oversized();
       on_round(result_.rounds, result_.mesh.tets.size());
-      if (mark() == 0 || result_.rounds == options_.max_rounds) {
+      if (mark() == 0 || result_.rounds == options_.max_rounds || exceeds_budget()) {
         break;
       }
       refine_red_green(lattice_, marked_);
@@ -195,6 +195,19 @@ class Refiner {
     mark_strays();
   }
 
+  /// Noise asks for the finest lattice everywhere; what a real image needs is 6 to 15 tets a point.
+  bool exceeds_budget() {
+    constexpr std::size_t kTetsPerPoint = 24;
+    constexpr std::size_t kTets = 100000;
+    const std::size_t tets = result_.mesh.tets.size();
+    if (!interfaces_ || tets < kTets + kTetsPerPoint * interfaces_->point_count()) {
+      return false;
+    }
+    result_.warnings.push_back("the refinement ended at " + std::to_string(tets) +
+                               " tets, before every interface was near enough: the image looks like noise");
+    return true;
+  }
+
   /// Tets of a label that is to have smaller elements.
   void mark_oversized() {
     if (options_.size_mm.empty()) {
@@ -216,7 +229,7 @@ class Refiner {
 
   /// The other direction: a vertex of an interface that lies too far from where the image has that interface.
   void mark_strays() {
-    if (options_.max_stray_mm <= 0) {
+    if (options_.max_stray_mm <= 0 || !interfaces_) {
       return;
     }
     mark_false_contacts();
