@@ -195,10 +195,11 @@ class Refiner {
     mark_strays();
   }
 
-  /// Noise asks for the finest lattice everywhere; what a real image needs is 6 to 15 tets a point.
+  /// Noise asks for the finest lattice everywhere; what a real image needs is 6 to 15 tets a point, and more
+  /// where specks of a voxel are many.
   bool exceeds_budget() {
-    constexpr std::size_t kTetsPerPoint = 24;
-    constexpr std::size_t kTets = 100000;
+    constexpr std::size_t kTetsPerPoint = 40;
+    constexpr std::size_t kTets = 250000;
     const std::size_t tets = result_.mesh.tets.size();
     if (!interfaces_ || tets < kTets + kTetsPerPoint * interfaces_->point_count()) {
       return false;
