@@ -96,7 +96,8 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
            });
          },
          "every boundary voxel has an interface vertex within so many mm: the lattice is refined for it, the "
-         "improvement keeps it; 0: off [quality: 0.9 voxel diagonals, paper: off]")
+         "improvement keeps it; 0: the lattice is not, and the improvement keeps its default [quality: 0.9 "
+         "voxel diagonals, paper: off]")
       ->check(CLI::NonNegativeNumber);
   app.add_flag_callback(
       "--topology-checks",

@@ -49,6 +49,16 @@ std::vector<std::size_t> LabelImage::voxels_per_material() const {
   return total;
 }
 
+std::vector<double> values_of_materials(const LabelImage& image, const std::map<Label, double>& of_label,
+                                        double otherwise) {
+  std::vector<double> values(image.material_count(), otherwise);
+  for (std::size_t m = 1; m < values.size(); ++m) {
+    const auto own = of_label.find(image.labels[m]);
+    values[m] = own != of_label.end() ? own->second : otherwise;
+  }
+  return values;
+}
+
 bool is_boundary_voxel(const LabelImage& image, int i, int j, int k) {
   const MaterialId own = image.at(i, j, k);
   return image.at_or_background(i - 1, j, k) != own || image.at_or_background(i + 1, j, k) != own ||

@@ -314,16 +314,6 @@ class Improver {
   ImproveReport report_;
 };
 
-/// The longest edge of each material.
-std::vector<double> longest_edges(const LabelImage& image, const std::map<Label, double>& size_mm) {
-  std::vector<double> longest(image.material_count(), std::numeric_limits<double>::infinity());
-  for (std::size_t m = 1; m < longest.size(); ++m) {
-    const auto size = size_mm.find(image.labels[m]);
-    longest[m] = size != size_mm.end() ? size->second : longest[m];
-  }
-  return longest;
-}
-
 }  // namespace
 
 ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
@@ -334,7 +324,7 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   ImproveTarget target{boundary, points, diagonal_mm};
   target.deviation_mm = options.deviation_diagonals * diagonal_mm;
   target.reach_mm = options.reach_mm > 0 ? options.reach_mm : 0.9 * diagonal_mm;
-  target.longest_mm = longest_edges(image, options.size_mm);
+  target.longest_mm = values_of_materials(image, options.size_mm, std::numeric_limits<double>::infinity());
   target.keep_distances = options.keep_distances;
   target.correct = [&](const MaterialMesh& now) { correct_volumes(now, image, boundary); };
   return improve_mesh(mesh, target, options, on_round);

@@ -214,11 +214,8 @@ class Refiner {
     if (options_.size_mm.empty()) {
       return;
     }
-    std::vector<double> size_mm(image_.material_count(), std::numeric_limits<double>::infinity());
-    for (std::size_t m = 1; m < size_mm.size(); ++m) {
-      const auto wanted = options_.size_mm.find(image_.labels[m]);
-      size_mm[m] = wanted != options_.size_mm.end() ? wanted->second : size_mm[m];
-    }
+    const std::vector<double> size_mm =
+        values_of_materials(image_, options_.size_mm, std::numeric_limits<double>::infinity());
     const std::vector<MaterialId>& materials = result_.mesh.materials;
 #pragma omp parallel for schedule(static, 1024)
     for (std::size_t t = 0; t < materials.size(); ++t) {

@@ -12,33 +12,18 @@
 
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/tests/run_command.hpp"
 #include "mesher/tests/test_images.hpp"
 
 namespace cbc3d {
 namespace {
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int exit_code;
-  std::string text;
-};
+using testing::bytes_of;
+using testing::Outcome;
 
 Outcome run(const std::string& arguments) {
-  const std::string command = std::string(CBC3D_COMMAND) + " " + arguments + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  std::string text;
-  std::array<char, 4096> buffer;
-  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
-    text += buffer.data();
-  }
-  return {WEXITSTATUS(::pclose(pipe)), text};
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream all;
-  all << in.rdbuf();
-  return all.str();
+  return testing::run_command(arguments);
 }
 
 class Command : public ::testing::Test {
