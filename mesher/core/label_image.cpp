@@ -66,4 +66,80 @@ bool is_boundary_voxel(const LabelImage& image, int i, int j, int k) {
          image.at_or_background(i, j, k - 1) != own || image.at_or_background(i, j, k + 1) != own;
 }
 
+std::vector<MaterialId> first_of_label(const LabelImage& image) {
+  std::vector<MaterialId> first(image.material_count());
+  std::map<Label, MaterialId> known;
+  for (std::size_t m = 0; m < first.size(); ++m) {
+    first[m] = known.try_emplace(image.labels[m], static_cast<MaterialId>(m)).first->second;
+  }
+  return first;
+}
+
+namespace {
+
+bool has_background_beside(const LabelImage& image, int i, int j, int k) {
+  return image.at(i, j, k) != kBackground && (image.at_or_background(i - 1, j, k) == kBackground ||
+                                              image.at_or_background(i + 1, j, k) == kBackground ||
+                                              image.at_or_background(i, j - 1, k) == kBackground ||
+                                              image.at_or_background(i, j + 1, k) == kBackground ||
+                                              image.at_or_background(i, j, k - 1) == kBackground ||
+                                              image.at_or_background(i, j, k + 1) == kBackground);
+}
+
+/// Calls f(centre, squared distance) for the boundary voxels within reach until it returns true.
+template <typename F>
+void for_each_boundary_voxel_near(const LabelImage& image, const Vec3& local_mm, MaterialId material,
+                                  double reach_mm, const F& f) {
+  const ImageFrame& frame = image.frame;
+  Index3 low;
+  Index3 high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double at = local_mm[axis] / frame.spacing_mm[axis];
+    const double reach = reach_mm / frame.spacing_mm[axis];
+    low[a] = std::max(0, static_cast<int>(std::ceil(at - reach)));
+    high[a] = std::min(frame.size[a] - 1, static_cast<int>(std::floor(at + reach)));
+  }
+  const auto is_one = [&](int i, int j, int k) {
+    return material == kBackground ? has_background_beside(image, i, j, k)
+                                   : image.labels[image.at(i, j, k)] == image.labels[material] &&
+                                         is_boundary_voxel(image, i, j, k);
+  };
+  for (int k = low[2]; k <= high[2]; ++k) {
+    for (int j = low[1]; j <= high[1]; ++j) {
+      for (int i = low[0]; i <= high[0]; ++i) {
+        const Vec3 centre = frame.local_centre(i, j, k);
+        const double squared = (centre - local_mm).squared_norm();
+        if (squared <= reach_mm * reach_mm && is_one(i, j, k) && f(centre, squared)) {
+          return;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Vec3> nearest_boundary_voxel(const LabelImage& image, const Vec3& local_mm, MaterialId material,
+                                           double reach_mm) {
+  std::optional<Vec3> nearest;
+  double least = reach_mm * reach_mm;
+  for_each_boundary_voxel_near(image, local_mm, material, reach_mm, [&](const Vec3& centre, double squared) {
+    if (!nearest || squared < least) {
+      nearest = centre;
+      least = squared;
+    }
+    return false;
+  });
+  return nearest;
+}
+
+bool has_boundary_voxel_near(const LabelImage& image, const Vec3& local_mm, MaterialId material,
+                             double reach_mm) {
+  bool found = false;
+  for_each_boundary_voxel_near(image, local_mm, material, reach_mm,
+                               [&](const Vec3&, double) { return found = true; });
+  return found;
+}
+
 }  // namespace cbc3d

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "mesher/core/label_voxels.hpp"
@@ -79,5 +80,17 @@ std::vector<double> values_of_materials(const LabelImage& image, const std::map<
 /// True when a voxel has a face neighbour of another material; the outside of the image counts as background.
 /// This is the paper's boundary voxel (its signed distance map is zero there).
 bool is_boundary_voxel(const LabelImage& image, int i, int j, int k);
+
+/// The centre of the nearest boundary voxel of a material's label within `reach_mm` of a place, local mm; for
+/// background: of a voxel of any label with background beside it.
+std::optional<Vec3> nearest_boundary_voxel(const LabelImage& image, const Vec3& local_mm, MaterialId material,
+                                           double reach_mm);
+
+/// True when there is one; sooner known.
+bool has_boundary_voxel_near(const LabelImage& image, const Vec3& local_mm, MaterialId material,
+                             double reach_mm);
+
+/// The first material of each material's label: several have one where a label's regions were told apart.
+std::vector<MaterialId> first_of_label(const LabelImage& image);
 
 }  // namespace cbc3d

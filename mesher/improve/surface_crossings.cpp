@@ -36,7 +36,27 @@ OuterSurface outer_surface(const MaterialMesh& mesh) {
   return surface;
 }
 
-/// True when segment p, q meets triangle a, b, c; what is within rounding of touching counts.
+/// True when segment p, q, in the plane of triangle a, b, c, has a part inside it.
+bool lies_in(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 up = (b - a).cross(c - a);
+  const double tiny = 1e-9 * up.norm() * ((b - a).norm() + (c - a).norm());
+  const std::array<std::array<Vec3, 2>, 3> sides = {{{a, b}, {b, c}, {c, a}}};
+  for (const auto& [from, to] : sides) {
+    const Vec3 inwards = up.cross(to - from);
+    if (inwards.dot(p - from) <= tiny * (to - from).norm() &&
+        inwards.dot(q - from) <= tiny * (to - from).norm()) {
+      return false;
+    }
+  }
+  const Vec3 across = up.cross(q - p);
+  const std::array<double, 3> at = {across.dot(a - p), across.dot(b - p), across.dot(c - p)};
+  const double leeway = tiny * (q - p).norm();
+  return !std::all_of(at.begin(), at.end(), [&](double d) { return d >= -leeway; }) &&
+         !std::all_of(at.begin(), at.end(), [&](double d) { return d <= leeway; });
+}
+
+/// True when segment p, q meets triangle a, b, c; what is within rounding of touching counts, but in a common
+/// plane.
 bool meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const double scale = (b - a).norm() * (c - a).norm() * (q - p).norm();
   const double tiny = 1e-9 * scale;
@@ -44,6 +64,9 @@ bool meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec
   const double side_q = six_volumes(a, b, c, q);
   if ((side_p > tiny && side_q > tiny) || (side_p < -tiny && side_q < -tiny)) {
     return false;
+  }
+  if (std::fabs(side_p) <= tiny && std::fabs(side_q) <= tiny) {
+    return lies_in(p, q, a, b, c);
   }
   const double u = six_volumes(p, q, a, b);
   const double v = six_volumes(p, q, b, c);
@@ -155,15 +178,18 @@ class CrossingFinder {
 /// Moves single vertices of a mesh whose tets stay.
 class Retreat {
  public:
-  Retreat(MaterialMesh& mesh, const CrossingOptions& options)
-      : mesh_(mesh), options_(options), around_(tets_of_vertices(mesh.tets, mesh.points.size())) {}
+  Retreat(MaterialMesh& mesh, const HostedPoints& hosted, const CrossingOptions& options)
+      : mesh_(mesh),
+        hosted_(hosted),
+        options_(options),
+        around_(tets_of_vertices(mesh.tets, mesh.points.size())) {}
 
   bool move(VertexId v, const Vec3& inwards) {
     const Vec3 from = mesh_.points[v];
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
     for (double length = options_.step_mm; length > 0.2 * options_.step_mm; length *= 0.5) {
       mesh_.points[v] = from + length * inwards;
-      if (worst_at(v) >= floor) {
+      if (hosted_.allow(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
         return true;
       }
     }
@@ -183,6 +209,7 @@ class Retreat {
   }
 
   MaterialMesh& mesh_;
+  const HostedPoints& hosted_;
   const CrossingOptions& options_;
   VertexTets around_;
 };
@@ -194,9 +221,10 @@ std::vector<std::array<std::uint32_t, 2>> crossing_facets(
   return CrossingFinder(points, facets).find();
 }
 
-std::size_t separate_crossings(MaterialMesh& mesh, const CrossingOptions& options) {
+std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
+                               const CrossingOptions& options) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  Retreat retreat(mesh, options);
+  Retreat retreat(mesh, hosted, options);
   for (int round = 0;; ++round) {
     const OuterSurface surface = outer_surface(mesh);
     pairs = crossing_facets(mesh.points, surface.facets);

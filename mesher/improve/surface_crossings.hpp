@@ -2,6 +2,7 @@
 // is drawn apart. Inside, where tets fill both sides, nothing can cross while all tets are positive.
 #pragma once
 
+#include "mesher/improve/hosted_points.hpp"
 #include "mesher/stages/material_mesh.hpp"
 
 namespace cbc3d {
@@ -18,8 +19,9 @@ struct CrossingOptions {
 std::vector<std::array<std::uint32_t, 2>> crossing_facets(const std::vector<Vec3>& points,
                                                           const std::vector<std::array<VertexId, 3>>& facets);
 
-/// Draws the vertices of crossing facets back into their own tets until nothing crosses. Returns the pairs
-/// left.
-std::size_t separate_crossings(MaterialMesh& mesh, const CrossingOptions& options);
+/// Draws the vertices of crossing facets back into their own tets until nothing crosses; their points stay
+/// within reach. Returns the pairs left.
+std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
+                               const CrossingOptions& options);
 
 }  // namespace cbc3d

@@ -13,6 +13,7 @@
 #include "mesher/improve/surface_crossings.hpp"
 #include "mesher/improve/tet_shape.hpp"
 #include "mesher/improve/vertex_moves.hpp"
+#include "mesher/improve/volume_balance.hpp"
 
 namespace cbc3d {
 namespace {
@@ -28,41 +29,30 @@ double worst_sine_squared(const MaterialMesh& mesh) {
   return worst;
 }
 
-/// Volume of every material, and the area of its surface.
-struct Extent {
-  std::vector<double> volume_mm3, area_mm2;
-};
+double voxel_volume_mm3(const LabelImage& image) {
+  const Vec3& spacing = image.frame.spacing_mm;
+  return spacing.x * spacing.y * spacing.z;
+}
 
-Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials) {
-  Extent extent{std::vector<double>(materials, 0.0), std::vector<double>(materials, 0.0)};
-  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto& n = mesh.tets[t];
-    const MaterialId m = mesh.materials[t];
-    extent.volume_mm3[m] +=
-        six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6;
-    for (std::size_t f = 0; f < 4; ++f) {
-      if (neighbours[t][f] == kNoTet || mesh.materials[neighbours[t][f]] != m) {
-        const auto& face = kTetFace[f];
-        const Vec3& p = mesh.points[n[face[0]]];
-        extent.area_mm2[m] += 0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
-      }
-    }
+/// Of the voxels; 0 for background.
+std::vector<double> volumes_of_materials(const LabelImage& image) {
+  std::vector<double> volumes(image.material_count(), 0.0);
+  const std::vector<std::size_t> voxels = image.voxels_per_material();
+  for (std::size_t m = 1; m < volumes.size(); ++m) {
+    volumes[m] = static_cast<double>(voxels[m]) * voxel_volume_mm3(image);
   }
-  return extent;
+  return volumes;
 }
 
 /// Moves the boundaries outwards by what each material lacks in volume, at most half a voxel in all.
 void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, ImageBoundary& boundary) {
-  const Vec3& spacing = image.frame.spacing_mm;
-  const double voxel_mm3 = spacing.x * spacing.y * spacing.z;
-  const double most_mm = 0.5 * std::cbrt(voxel_mm3);
+  const double most_mm = 0.5 * std::cbrt(voxel_volume_mm3(image));
   const Extent extent = extent_of_materials(mesh, image.material_count());
-  const std::vector<std::size_t> voxels = image.voxels_per_material();
+  const std::vector<double> wanted_mm3 = volumes_of_materials(image);
   std::vector<double> offsets = boundary.offsets();
   for (std::size_t m = 1; m < offsets.size(); ++m) {
     if (extent.area_mm2[m] > 0) {
-      const double lack = static_cast<double>(voxels[m]) * voxel_mm3 - extent.volume_mm3[m];
+      const double lack = wanted_mm3[m] - extent.volume_mm3[m];
       offsets[m] = std::clamp(offsets[m] + lack / extent.area_mm2[m], -most_mm, most_mm);
     }
   }
@@ -186,12 +176,12 @@ class Improver {
     }
     for (int i = 0; i < options_.repair_rounds && repair("repair", goal_, i) > 0; ++i) {
     }
+    if (!options_.only_bad) {
+      finish_surfaces();
+    }
     drop_unused_vertices(mesh_);
     if (!options_.only_bad) {
       order_for_locality(mesh_);
-      timed("crossings", [this] {
-        report_.crossings_left = separate_crossings(mesh_, {0.08 * target_.scale_mm, goal_, 12});
-      });
     }
     finish();
     return std::move(report_);
@@ -202,6 +192,8 @@ class Improver {
   static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
   static constexpr double kLongestGrowth = 2.5;
   static constexpr int kFittings = 2;
+  static constexpr double kFarthestReach =
+      1.05;  // of a vertex, in the target's scale, where nothing else helps
 
   /// Vertices to the boundary, tets into shape.
   void fit() {
@@ -240,7 +232,8 @@ class Improver {
     PatchRules rules = rules_now();
     if (!target_.keep_distances) {
       const double unit = target_.scale_mm;
-      rules.reach_mm = std::max(rules.reach_mm, std::min(1.05 * unit, rules.reach_mm + 0.05 * round * unit));
+      rules.reach_mm =
+          std::max(rules.reach_mm, std::min(kFarthestReach * unit, rules.reach_mm + 0.05 * round * unit));
       double& deviation_mm = rules.guards.deviation_mm;
       deviation_mm = std::max(deviation_mm, std::min(0.4 * unit, deviation_mm + 0.05 * round * unit));
     }
@@ -263,6 +256,46 @@ class Improver {
       }
     }
     climb_vertices(patch, goal_);
+  }
+
+  /// Crossings, strays and volumes. What still crosses in the end may cost a little more distance.
+  void finish_surfaces() {
+    HostedPoints hosted(hosted_.points, hosted_.hosts, mesh_.points.size(), hosted_.reach_mm);
+    timed("crossings", [&] { separate_and_relabel(hosted); });
+    if (!target_.volumes_mm3.empty()) {
+      timed("volumes", [&] { balance(hosted); });
+    }
+    if (!target_.keep_distances) {
+      hosted.set_reach(std::max(hosted_.reach_mm, kFarthestReach * target_.scale_mm));
+    }
+    timed("crossings", [&] { separate_and_relabel(hosted); });
+  }
+
+  /// What crosses is drawn apart; what then still does, and what stands on a wrong surface, changes hands.
+  void separate_and_relabel(HostedPoints& hosted) {
+    const CrossingOptions crossing{0.08 * target_.scale_mm, goal_, 12};
+    const RelabelOptions relabel{hosted_.reach_mm, target_.largest_change_mm3, goal_, 6};
+    for (int turn = 0; turn < 3; ++turn) {
+      report_.crossings_left = separate_crossings(mesh_, hosted, crossing);
+      if (!target_.places.is_near) {
+        return;
+      }
+      const RelabelReport report = relabel_misplaced_tets(mesh_, hosted, target_.places, relabel);
+      report_.tets_relabelled += report.tets_relabelled;
+      if (report.tets_relabelled + report.vertices_moved == 0) {
+        return;
+      }
+    }
+    report_.crossings_left = separate_crossings(mesh_, hosted, crossing);
+  }
+
+  void balance(const HostedPoints& hosted) {
+    BalanceOptions options;
+    options.wanted_mm3 = target_.volumes_mm3;
+    options.label_of = target_.places.label_of;
+    options.step_mm = 0.03 * target_.scale_mm;
+    options.goal_sine_squared = goal_;
+    balance_volumes(mesh_, hosted, options);
   }
 
   [[nodiscard]] PatchRules rules_now() const {
@@ -314,6 +347,19 @@ class Improver {
   ImproveReport report_;
 };
 
+ImagePlaces places_of(const LabelImage& image, const ImageBoundary& boundary) {
+  constexpr double kNearDiagonals = 1.09;
+  return {first_of_label(image),
+          [&image](const Vec3& at, MaterialId material) {
+            return has_boundary_voxel_near(image, at, material,
+                                           kNearDiagonals * image.frame.voxel_diagonal_mm());
+          },
+          [&image](const Vec3& at, MaterialId material) {
+            return nearest_boundary_voxel(image, at, material, 2 * image.frame.voxel_diagonal_mm());
+          },
+          [&boundary](const Vec3& at) { return boundary.material_at(at); }};
+}
+
 }  // namespace
 
 ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const ImproveOptions& options,
@@ -326,6 +372,9 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   target.reach_mm = options.reach_mm > 0 ? options.reach_mm : 0.9 * diagonal_mm;
   target.longest_mm = values_of_materials(image, options.size_mm, std::numeric_limits<double>::infinity());
   target.keep_distances = options.keep_distances;
+  target.places = places_of(image, boundary);
+  target.largest_change_mm3 = 8 * voxel_volume_mm3(image);
+  target.volumes_mm3 = volumes_of_materials(image);
   target.correct = [&](const MaterialMesh& now) { correct_volumes(now, image, boundary); };
   return improve_mesh(mesh, target, options, on_round);
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesher/improve/image_boundary.hpp"
+#include "mesher/improve/relabel_tets.hpp"
 #include "mesher/stages/interface_points.hpp"
 #include "mesher/stages/material_mesh.hpp"
 
@@ -45,8 +46,11 @@ struct ImproveTarget {
   std::vector<double> longest_mm = {};        ///< edges of each material; empty: no limit
   bool keep_distances = false;                ///< as in ImproveOptions
   std::function<void(const MaterialMesh&)> correct =
-      {};                            ///< moves the boundary by what the volumes lack; may be null
-  std::vector<VertexId> hosts = {};  ///< of the points, where known; else they are looked for
+      {};                                ///< moves the boundary by what the volumes lack; may be null
+  std::vector<VertexId> hosts = {};      ///< of the points, where known; else they are looked for
+  std::vector<double> volumes_mm3 = {};  ///< of every material, balanced in the end; empty: as they come
+  double largest_change_mm3 = 8;         ///< RelabelOptions::largest_mm3
+  ImagePlaces places = {};               ///< without them no tet changes its material in the end
 };
 
 struct ImproveReport {
@@ -55,6 +59,7 @@ struct ImproveReport {
   double min_dihedral_before_deg = 0, min_dihedral_after_deg = 0;
   std::size_t boundary_points = 0;
   std::size_t uncovered_points = 0;  ///< without a surface vertex in reach in the end
+  std::size_t tets_relabelled = 0;   ///< in the end: strays, and what could not be drawn apart
   std::size_t crossings_left = 0;    ///< pairs of outer facets that cut each other
   /// Seconds by part: hosts, untangling, fitting, volumes, decimation, repair, crossings.
   std::vector<std::pair<std::string, double>> part_seconds;
