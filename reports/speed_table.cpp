@@ -47,6 +47,7 @@ class CaseRows {
       if (is_reference(reference)) {
         add_multiples("elements", measures()[0], reference);
         add_multiples("time", measures()[1], reference);
+        add_multiples("CPU time", measures()[3], reference);
       }
     }
     add_core_seconds();

@@ -57,6 +57,7 @@ TEST(SpeedTable, RatiosAreOverTheReferencesColumns) {
   EXPECT_EQ(text(table, "box", "time over cbc3d-paper (1 thread)'s", 0), "1.00");
   EXPECT_EQ(text(table, "box", "time over cbc3d-paper (1 thread)'s", 2), "5.00");
   EXPECT_EQ(text(table, "box", "time over cbc3d-paper (2 threads)'s", 2), "10.00");
+  EXPECT_EQ(text(table, "box", "CPU time over cbc3d-paper (2 threads)'s", 2), "5.00");
   EXPECT_EQ(text(table, "box", "time over cgal's", 0), "no row time over cgal's");
   EXPECT_EQ(text(table, "box", "core-seconds (time x threads)", 1), "2.00");
   EXPECT_EQ(text(table, "box", "the paper's core-seconds over these", 1),
