@@ -147,7 +147,7 @@ class SeriesRows {
       return costs.back();
     });
     if (costs.size() > 1 && median(costs) > 0) {
-      row.cells.back() = number_cell(spread_percent(costs), 0);
+      row.cells.back() = number_cell(spread_percent(costs), 1);
       row.cells.back().missed = limited && spread_percent(costs) > kFlatPercent;
     }
     if (!costs.empty()) rows_.push_back(std::move(row));

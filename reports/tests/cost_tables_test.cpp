@@ -97,7 +97,7 @@ TEST(ScalingTable, CostsArePerVoxelAndElementWithTheirSpread) {
   EXPECT_EQ(text(table, "ball, cbc3d", "wall time (ns per voxel)", 0), "1,000.00");
   EXPECT_EQ(text(table, "ball, cbc3d", "wall time (ns per voxel)", 1), "1,500.00");
   EXPECT_EQ(text(table, "ball, cbc3d", "wall time (us per element)", 1), "150.00");
-  EXPECT_EQ(text(table, "ball, cbc3d", "wall time (ns per voxel)", 2), "20");  // 250 from the median 1,250
+  EXPECT_EQ(text(table, "ball, cbc3d", "wall time (ns per voxel)", 2), "20.0");  // 250 from the median 1,250
   EXPECT_EQ(text(table, "ball, cbc3d", "lattice (us per element)", 0), "75.00");
   EXPECT_EQ(text(table, "ball, cbc3d", "rest (us per element)", 0), "no row rest (us per element)");
   for (const Row& row : table.rows) {
@@ -112,10 +112,10 @@ TEST(ScalingTable, WhatIsNotFlatIsMarkedAndAMissingSizeIsADash) {
                      line("a", "cgal", 100, 1), line("c", "cgal", 6400, 64)},
                     cases);
   EXPECT_EQ(table.columns.size(), 4U);
-  EXPECT_EQ(text(table, "ball, cbc3d", "wall time (us per element)", 3), "100 missed");
-  EXPECT_EQ(text(table, "ball, cgal", "wall time (us per element)", 3), "0");
+  EXPECT_EQ(text(table, "ball, cbc3d", "wall time (us per element)", 3), "100.0 missed");
+  EXPECT_EQ(text(table, "ball, cgal", "wall time (us per element)", 3), "0.0");
   EXPECT_EQ(text(table, "ball, cgal", "wall time (us per element)", 1), "-");
-  EXPECT_EQ(text(table, "ball, cbc3d", "lattice (us per element)", 3), "100");  // a stage has no limit
+  EXPECT_EQ(text(table, "ball, cbc3d", "lattice (us per element)", 3), "100.0");  // a stage has no limit
   EXPECT_TRUE(scaling_table({line("a", "cbc3d", 100, 1)}, cases).rows.empty());
 }
 
