@@ -16,7 +16,8 @@ namespace cbc3d::reports {
 namespace {
 
 struct ReportOptions {
-  std::string folder, out, title, manifests, microbenchmarks;
+  std::string folder, out, title, manifests;
+  std::vector<std::filesystem::path> microbenchmarks;
   bool pictures = true, quiet = false;
   int threads = 0;
 };
@@ -34,7 +35,7 @@ int write_report(const ReportOptions& options) {
   report.title = options.title.empty() ? "CBC3D: comparison of meshers" : options.title;
   report.tables = all_tables(folder, report.results, report.cases);
   if (!options.microbenchmarks.empty()) {
-    report.tables.push_back(microbenchmark_table(options.microbenchmarks));
+    report.tables.push_back(microbenchmark_table(read_microbenchmarks(options.microbenchmarks)));
   }
   report.figures = all_figures(folder, report.results);
   report.picture_dir = folder / "figures" / "small";
@@ -61,7 +62,8 @@ Command add_report_command(CLI::App& app) {
   parser->add_option("DIR", options->folder, "folder of a run or a sweep")->required();
   parser->add_option("--out", options->out, "HTML file to write")->required();
   parser->add_option("--title", options->title, "title of the report");
-  parser->add_option("--microbenchmarks", options->microbenchmarks, "Google Benchmark's JSON to put in");
+  parser->add_option("--microbenchmarks", options->microbenchmarks,
+                     "Google Benchmark's JSON files to put in");
   parser->add_option("--manifests", options->manifests,
                      "folder of case manifests, *.json; default: the installed ones");
   parser->add_flag("!--no-pictures", options->pictures, "do not draw pictures that are missing");

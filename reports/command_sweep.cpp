@@ -14,7 +14,8 @@ namespace {
 
 struct SweepOptions {
   Selection selection;
-  std::string out, microbenchmarks;
+  std::string out;
+  std::vector<std::filesystem::path> microbenchmarks;
   RunOptions run;
   double memory_limit_gib = 16;
   OutputOptions output;
@@ -25,16 +26,13 @@ int sweep(SweepOptions options) {
   options.run.interleaved = true;
   options.run.memory_limit_bytes = static_cast<std::int64_t>(options.memory_limit_gib * double(1 << 30));
   options.run.parameters = parse_settings(options.selection);
-  if (!options.microbenchmarks.empty()) {
-    microbenchmark_table(options.microbenchmarks);  // complains before the long work
-  }
+  const Json microbenchmarks = read_microbenchmarks(options.microbenchmarks);  // complains before the work
   const Bench bench = make_bench(options.selection, options.run.out_dir);
   Progress progress(options.output.quiet);
   const std::vector<Json> results = run_jobs(bench, options.run, progress);
   write_text_file(options.run.out_dir / "sweep.json", to_json(sweep_points(results)).dump(1) + "\n");
   if (!options.microbenchmarks.empty()) {
-    std::filesystem::copy_file(options.microbenchmarks, options.run.out_dir / "microbenchmarks.json",
-                               std::filesystem::copy_options::overwrite_existing);
+    write_text_file(options.run.out_dir / "microbenchmarks.json", microbenchmarks.dump(1) + "\n");
   }
   options.output.pictures = false;
   write_output(options.run.out_dir, results, cases_of(options.selection.manifests), bench.bin_dir,
@@ -57,7 +55,7 @@ Command add_sweep_command(CLI::App& app) {
       ->required();
   add_limit_options(parser, options->run, options->memory_limit_gib);
   parser->add_option("--microbenchmarks", options->microbenchmarks,
-                     "Google Benchmark's JSON, put into tables and report");
+                     "Google Benchmark's JSON files, put into tables and report");
   parser->add_flag("--resume", options->run.resume, "go on with the samples in --out");
   parser->add_flag(
       "--rerun-changed", options->run.rerun_changed,

@@ -23,6 +23,17 @@ FigureOf at(std::vector<std::string> path, double factor) {
   };
 }
 
+std::optional<double> element_count(const Json& result) {
+  double count = 0;
+  bool known = false;
+  for (const char* kind : {"tets", "pyramids", "wedges", "hexes"}) {
+    const auto value = at({"counts", kind})(result);
+    count += value.value_or(0);
+    known = known || value.has_value();
+  }
+  return known ? std::optional(count) : std::nullopt;
+}
+
 std::string text_of(const Json& result, const char* key) {
   return result.value(key, "");
 }

@@ -24,6 +24,9 @@ struct Measure {
 /// The number at a path such as {"fidelity", "hausdorff_mm"}, times a factor.
 FigureOf at(std::vector<std::string> path, double factor = 1);
 
+/// Elements of all kinds; none where the line has no counts.
+std::optional<double> element_count(const Json& result);
+
 /// The text under a key; empty when there is none.
 std::string text_of(const Json& result, const char* key);
 

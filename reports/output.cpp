@@ -22,7 +22,7 @@ std::vector<Table> all_tables(const std::filesystem::path& folder, const std::ve
     }
   }
   if (std::filesystem::exists(folder / "microbenchmarks.json")) {
-    tables.push_back(microbenchmark_table(folder / "microbenchmarks.json"));
+    tables.push_back(microbenchmark_table(read_microbenchmarks({folder / "microbenchmarks.json"})));
   }
   tables.push_back(image_data_table(results, cases));
   tables.push_back(input_parameter_table(results));

@@ -53,8 +53,11 @@ std::vector<Table> sweep_tables(const std::vector<SweepPoint>& points);
 /// stages.
 std::vector<Figure> sweep_figures(const std::vector<SweepPoint>& points);
 
-/// A table of the microbenchmarks in a Google Benchmark JSON (--benchmark_out). Throws InputError naming
-/// file, key and remedy when it is none.
-Table microbenchmark_table(const std::filesystem::path& file);
+/// The microbenchmarks of Google Benchmark's JSON files (--benchmark_out) in one object, {"benchmarks":
+/// [...]}. Throws InputError naming file, key and remedy for another file.
+Json read_microbenchmarks(const std::vector<std::filesystem::path>& files);
+
+/// A table of them; the counter of_bandwidth, a kernel's share of the machine's memory bandwidth, in percent.
+Table microbenchmark_table(const Json& microbenchmarks);
 
 }  // namespace cbc3d::reports

@@ -211,22 +211,34 @@ std::vector<Figure> sweep_figures(const std::vector<SweepPoint>& points) {
   return figures;
 }
 
-Table microbenchmark_table(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  const Json content = stream ? Json::parse(stream, nullptr, false) : Json();
-  if (!content.is_object() || !figure(content, {"benchmarks"}).is_array()) {
-    throw InputError(
-        "'" + file.string() +
-        "' holds no list \"benchmarks\"; give the file of Google Benchmark's --benchmark_out with "
-        "--benchmark_out_format=json");
+Json read_microbenchmarks(const std::vector<std::filesystem::path>& files) {
+  Json all{{"benchmarks", Json::array()}};
+  for (const std::filesystem::path& file : files) {
+    std::ifstream stream(file);
+    const Json content = stream ? Json::parse(stream, nullptr, false) : Json();
+    const Json list = figure(content, {"benchmarks"});
+    if (!list.is_array()) {
+      throw InputError(
+          "'" + file.string() +
+          "' holds no list \"benchmarks\"; give the file of Google Benchmark's --benchmark_out with "
+          "--benchmark_out_format=json");
+    }
+    for (const Json& benchmark : list) {
+      all["benchmarks"].push_back(benchmark);
+    }
   }
+  return all;
+}
+
+Table microbenchmark_table(const Json& microbenchmarks) {
   Table table{"microbenchmarks",
               "Microbenchmarks (Google Benchmark)",
-              {"wall time (ms)", "CPU time (ms)", "iterations", "items per second", "bytes per second"},
+              {"wall time (ms)", "CPU time (ms)", "iterations", "items per second", "bytes per second",
+               "of the memory's bandwidth (%)"},
               {},
               "benchmark",
               "kind"};
-  for (const Json& benchmark : content["benchmarks"]) {
+  for (const Json& benchmark : microbenchmarks["benchmarks"]) {
     Row row{benchmark.value("name", "?"),
             benchmark.value("aggregate_name", benchmark.value("run_type", "")),
             3,
@@ -239,6 +251,8 @@ Table microbenchmark_table(const std::filesystem::path& file) {
       row.cells.push_back(figure(benchmark, {key}).is_number() ? number_cell(benchmark[key].get<double>(), 0)
                                                                : Cell{});
     }
+    const Json share = figure(benchmark, {"of_bandwidth"});
+    row.cells.push_back(share.is_number() ? number_cell(100 * share.get<double>(), 2) : Cell{});
     if (benchmark.value("error_occurred", false)) {
       row.cells.front().reason = benchmark.value("error_message", "failed");
     }

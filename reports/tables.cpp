@@ -10,6 +10,9 @@
 #include "mesher/core/error.hpp"
 #include "reports/columns.hpp"
 #include "reports/measures.hpp"
+#include "reports/paper_figure.hpp"
+#include "reports/scaling_table.hpp"
+#include "reports/speed_table.hpp"
 #include "reports/target_table.hpp"
 
 namespace cbc3d::reports {
@@ -70,45 +73,6 @@ bool has_mixed_mesh(const std::vector<Json>& results) {
   });
 }
 
-/// The paper's Hausdorff distance after a deformation with the run's own pattern and iterations, as a case's
-/// manifest has it from the table on deformation.
-std::optional<double> paper_deformation_figure(const nlohmann::json& deformation, const Json& run) {
-  const Json pattern = figure(run, {"parameters", "connectivity"});
-  const Json iterations = figure(run, {"parameters", "iterations"});
-  const std::string expected = deformation.value("iterations", nlohmann::json()).dump();
-  if (!pattern.is_string() || !iterations.is_string() || iterations.get<std::string>() != expected) {
-    return std::nullopt;
-  }
-  const auto value = at({"patterns", pattern.get<std::string>(), "hausdorff_mm"});
-  return value(Json(deformation));
-}
-
-/// The paper's figure beside a run's: that under the mesher's name, or under its method's (cbc3d-paper and
-/// cbc3d are one, a mixed mesh is not), or for a distance that of the table on deformation.
-std::optional<double> paper_figure(const cases::Case& subject, const Json& run, const std::string& key) {
-  const std::string mesher = text_of(run, "mesher");
-  const std::string method = mesher == "cbc3d-mixed" ? mesher : mesher.substr(0, mesher.find('-'));
-  for (const std::string& name : {mesher, method}) {
-    if (const auto value = at({name, key})(Json(subject.paper))) {
-      return value;
-    }
-  }
-  const bool deformed = method == "cbc3d" && key == "hausdorff_mm" && subject.paper.contains("deformation");
-  return deformed ? paper_deformation_figure(subject.paper["deformation"], run) : std::nullopt;
-}
-
-/// `runs`: as for cell_of.
-std::optional<double> paper_figure(const std::vector<cases::Case>& cases,
-                                   const std::vector<const Json*>& runs, const std::string& key) {
-  if (runs.empty() || key.empty()) {
-    return std::nullopt;
-  }
-  const std::string name = text_of(*runs.front(), "case");
-  const auto found =
-      std::find_if(cases.begin(), cases.end(), [&](const cases::Case& c) { return c.name == name; });
-  return found == cases.end() ? std::nullopt : paper_figure(*found, *runs.front(), key);
-}
-
 Table build_table(const TablePlan& plan, const std::vector<Json>& results,
                   const std::vector<cases::Case>& cases) {
   const Columns columns(results);
@@ -135,6 +99,10 @@ std::vector<Table> build_tables(const std::vector<Json>& results, const std::vec
     if (plan.name != "vertices" || has_mixed_mesh(results)) {
       tables.push_back(build_table(plan, results, cases));
     }
+  }
+  tables.push_back(speed_table(results, cases));
+  if (Table scaling = scaling_table(results, cases); !scaling.rows.empty()) {
+    tables.push_back(std::move(scaling));
   }
   tables.push_back(target_table(results));
   if (Table smooth = smoothness_table(results); !smooth.rows.empty()) {

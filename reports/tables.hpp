@@ -1,5 +1,5 @@
 // The tables of a results file: element count, element quality, fidelity, time, vertices of mixed meshes,
-// targets and smoothness (target_table.hpp).
+// speed (speed_table.hpp), scaling (scaling_table.hpp), targets and smoothness (target_table.hpp).
 #pragma once
 
 #include <filesystem>

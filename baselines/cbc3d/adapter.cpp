@@ -11,37 +11,89 @@ namespace {
 
 constexpr const char* kSwitch = "true|false";
 
-std::vector<ParameterSpec> parameters() {
+// What differs between the presets: the defaults as `cbc3d mesh` has them.
+struct PresetDefaults {
+  const char *region_tolerance, *no_manifold_voxels, *fidelity, *max_distance, *topology_checks, *iterations,
+      *target_position, *pair_distance, *min_dihedral;
+};
+
+constexpr PresetDefaults kQuality{
+    "0", "true (always)", "0.01", "0.9 voxel diagonals", "true (always)", "0", "voxel-faces", "0.8", "20"};
+constexpr PresetDefaults kPaper{"1e-4", "false", "0.95", "0", "false", "5", "voxel-centre", "0.5", "5"};
+
+std::vector<ParameterSpec> image_and_lattice_parameters(const PresetDefaults& preset) {
   return {
       {"relabel-noise", "none", "none|holes|specks|both", "isolated voxels given their neighbours' label"},
-      {"region-tolerance", "preset", "", "regions below this share of their label become background"},
-      {"no-manifold-voxels", "false", kSwitch, "leave voxels that touch only by an edge or a vertex"},
+      {"region-tolerance", preset.region_tolerance, "",
+       "regions below this share of their label become background"},
+      {"no-manifold-voxels", preset.no_manifold_voxels, kSwitch,
+       "leave voxels that touch only by an edge or a vertex"},
       {"seed", "1", "", "of the choice among cleaning templates"},
-      {"lattice-spacing", "ten voxels", "mm", "edge of the coarsest lattice cubes"},
-      {"finest-spacing", "near the smallest voxel spacing", "mm", "the fidelity makes the lattice no finer"},
-      {"fidelity", "0.95", "", "F: refine a material while its F1 or F2 is below"},
+      {"lattice-spacing", "ten times the mean voxel spacing", "mm", "edge of the coarsest lattice cubes"},
+      {"finest-spacing", "the smallest voxel spacing, but half the geometric mean at least", "mm",
+       "the fidelity makes the lattice no finer"},
+      {"fidelity", preset.fidelity, "", "F: refine a material while its F1 or F2 is below"},
       {"material-fidelity", "none", "LABEL=F", "the fidelity of one label"},
-      {"max-distance", "preset", "mm",
+      {"size", "none", "LABEL=MM", "the edges of one label's elements are no longer, about"},
+      {"max-distance", preset.max_distance, "mm",
        "refine where a boundary voxel has no interface vertex so near; 0: off"},
-      {"topology-checks", "false", kSwitch, "make every label's sub-mesh a manifold without crumbs"},
-      {"iterations", "5", "", "iterations of the deformation"},
+      {"topology-checks", preset.topology_checks, kSwitch,
+       "make every label's sub-mesh a manifold without crumbs"},
+  };
+}
+
+std::vector<ParameterSpec> deformation_parameters(const PresetDefaults& preset) {
+  return {
+      {"iterations", preset.iterations, "", "iterations of the deformation"},
       {"connectivity", "no", "vertex|edge|face|no", "pattern that thins the target points"},
-      {"target-position", "preset", "voxel-centre|voxel-faces", "where the targets lie"},
-      {"on-failure", "preset", "stop|recover", "what happens where elements stay below the minimum quality"},
+      {"target-position", preset.target_position, "voxel-centre|voxel-faces", "where the targets lie"},
+      {"on-failure", "recover", "stop|recover", "what happens where elements stay below the minimum quality"},
       {"young-pa", "2100", "Pa", "Young's modulus"},
       {"poisson", "0.45", "", "Poisson's ratio"},
-      {"mixed", "false", kSwitch, "hexes in uniform regions, pyramids between them and the tets"},
       {"displacement", "normal", "normal|full", "of a source: along the surface's normal, or the full mean"},
       {"keep-outliers", "false", kSwitch, "let targets pull whose boundary looks the other way"},
       {"reach", "3", "regions", "how far a source without target in its region looks"},
-      {"pair-distance", "preset", "voxel diagonals",
+      {"pair-distance", preset.pair_distance, "voxel diagonals",
        "a farther pair of source and target is pulled so near; 0: off"},
       {"attempts", "3", "", "with on-failure stop: solves with scaled displacements before it stops"},
       {"material-young", "none", "LABEL=Pa", "Young's modulus of one label"},
       {"material-poisson", "none", "LABEL=NU", "Poisson's ratio of one label"},
       {"min-scaled-jacobian", "0.2", "", "smallest scaled Jacobian of hexes and pyramids that is kept"},
-      {"min-dihedral", "5", "deg", "smallest dihedral angle that the deformation keeps"},
   };
+}
+
+// The improvement is the default preset's; without hexes and pyramids, which it does not know.
+std::vector<ParameterSpec> improvement_parameters() {
+  return {
+      {"no-improve", "false", kSwitch, "stop before the improvement"},
+      {"decimation-rounds", "3", "", "rounds that thin the mesh out; 0: as many tets as before"},
+      {"deviation", "0.15", "voxel diagonals", "facets stay so near to the boundary"},
+  };
+}
+
+std::vector<ParameterSpec> joined(std::vector<ParameterSpec> first, const std::vector<ParameterSpec>& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
+
+std::vector<ParameterSpec> quality_parameters() {
+  auto specs = joined(image_and_lattice_parameters(kQuality), deformation_parameters(kQuality));
+  specs = joined(std::move(specs), improvement_parameters());
+  specs.push_back(
+      {"mixed", "false", kSwitch,
+       "hexes in uniform regions, pyramids between them and the tets; then the paper's fidelity and "
+       "iterations in place of the improvement"});
+  specs.push_back(
+      {"min-dihedral", kQuality.min_dihedral, "deg", "smallest dihedral angle, the improvement's goal"});
+  return specs;
+}
+
+std::vector<ParameterSpec> paper_parameters(const char* mixed) {
+  auto specs = joined(image_and_lattice_parameters(kPaper), deformation_parameters(kPaper));
+  specs.push_back({"mixed", mixed, kSwitch, "hexes in uniform regions, pyramids between them and the tets"});
+  specs.push_back(
+      {"min-dihedral", kPaper.min_dihedral, "deg", "smallest dihedral angle that the deformation keeps"});
+  return specs;
 }
 
 bool is_switch(const std::vector<ParameterSpec>& specs, const std::string& key) {
@@ -62,14 +114,14 @@ void append_parameter(std::vector<std::string>& argv, const std::string& mesher,
 }
 
 // `options`: what tells this adapter from the others, put before the job's parameters.
-Adapter make(const std::string& name, const std::string& description,
-             const std::vector<std::string>& options) {
+Adapter make(const std::string& name, const std::string& description, const std::vector<std::string>& options,
+             std::vector<ParameterSpec> parameters) {
   Adapter adapter;
   adapter.name = name;
   adapter.description = description;
   adapter.licence = "Apache-2.0";
   adapter.multithreaded = true;
-  adapter.parameters = parameters();
+  adapter.parameters = std::move(parameters);
   adapter.availability = [](const std::filesystem::path& bin_dir) {
     return executable_availability(bin_dir, "cbc3d",
                                    "the program cbc3d is not built: build the target cbc3d");
@@ -98,16 +150,17 @@ Adapter make(const std::string& name, const std::string& description,
 }  // namespace
 
 Adapter cbc3d_adapter() {
-  return make("cbc3d", "CBC3D with its default preset", {});
+  return make("cbc3d", "CBC3D with its default preset", {}, quality_parameters());
 }
 
 Adapter cbc3d_paper_adapter() {
-  return make("cbc3d-paper", "CBC3D with the paper's settings", {"--preset", "paper"});
+  return make("cbc3d-paper", "CBC3D with the paper's settings", {"--preset", "paper"},
+              paper_parameters("false"));
 }
 
 Adapter cbc3d_mixed_adapter() {
   return make("cbc3d-mixed", "CBC3D with the paper's settings and mixed elements",
-              {"--preset", "paper", "--mixed"});
+              {"--preset", "paper", "--mixed"}, paper_parameters("true (always)"));
 }
 
 }  // namespace cbc3d::baselines

@@ -202,7 +202,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"deformation", deformation_json(report.deform)},
           {"improvement", run.options.improve.enabled ? improvement_json(report.improve) : nlohmann::json()},
           {"warnings", report.warnings},
-          {"seconds", {{"total", report.seconds}, {"cpu", process_cpu_seconds()}, {"stages", stages}}},
+          {"seconds", {{"total", report.seconds}, {"cpu", report.cpu_seconds}, {"stages", stages}}},
           {"peak_rss_bytes", process_peak_rss_bytes()}};
 }
 

@@ -106,7 +106,7 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
 }
 
 void add_deformation_options(CLI::App& app, Overrides& overrides) {
-  add_override<int>(app, overrides, "--iterations", "deformation iterations [5]",
+  add_override<int>(app, overrides, "--iterations", "deformation iterations [5; mesh with preset quality: 0]",
                     [](MeshImageOptions& o) -> int& { return o.deform.iterations; })
       ->check(CLI::Range(0, 1000));
   add_choice(app, overrides, "--connectivity",

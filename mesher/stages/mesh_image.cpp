@@ -27,11 +27,13 @@ class StageLog {
       ~Record() {
         report.stage_seconds.emplace_back(name, watch.seconds());
         report.seconds += watch.seconds();
+        report.cpu_seconds += process_cpu_seconds() - cpu_before;
       }
       MeshImageReport& report;
       const std::string& name;
       const Stopwatch& watch;
-    } record{report_, name, watch};
+      double cpu_before;
+    } record{report_, name, watch, process_cpu_seconds()};
     return stage();
   }
 

@@ -38,6 +38,7 @@ struct MeshImageReport {
   std::vector<std::pair<std::string, double>>
       stage_seconds;  ///< in order; reading and writing files not included
   double seconds = 0;
+  double cpu_seconds = 0;  ///< user and system, all threads, of the same stages
   CleanReport clean;
   RefineResult refine;  ///< without its mesh
   TopologyReport topology;

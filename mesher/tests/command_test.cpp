@@ -58,6 +58,7 @@ TEST_F(Command, MeshesAnImageAndReports) {
   EXPECT_EQ(report["materials"].size(), 2U);
   EXPECT_EQ(report["deformation"]["iterations"].size(), 5U);
   EXPECT_GT(report["seconds"]["total"].get<double>(), 0);
+  EXPECT_GT(report["seconds"]["cpu"].get<double>(), 0);
   EXPECT_GT(report["peak_rss_bytes"].get<double>(), 1e6);
   for (const char* stage : {"1_bcc_lattice", "2_candidate_mesh", "4_deformed_mesh"}) {
     EXPECT_TRUE(fs::exists(folder_ / "stages" / (std::string(stage) + ".vtu"))) << stage;

@@ -3,9 +3,11 @@
 // at 311).
 #include <benchmark/benchmark.h>
 
+#include "mesher/bench/bandwidth.hpp"
 #include "metrics/element_quality.hpp"
 #include "metrics/image_topology.hpp"
 #include "metrics/mesh_betti.hpp"
+#include "metrics/point_set_hausdorff.hpp"
 #include "metrics/self_intersection.hpp"
 #include "metrics/smooth_surface.hpp"
 #include "metrics/surface_hausdorff.hpp"
@@ -121,6 +123,21 @@ void CertifiedDistance(benchmark::State& state) {
   report(state, mesh, image);
 }
 
+/// The paper's distance of one material: each point of either set read once, its nearest beside it.
+void KernelPointSetDistance(benchmark::State& state) {
+  const auto size = static_cast<int>(state.range(0));
+  const LabelImage image = ball_image(size);
+  const Mesh mesh = ball_mesh(size);
+  const MeshView view(mesh, image);
+  const std::vector<Vec3> boundary = image_boundaries(image)[1].voxel_centres;
+  const Surface facets = extract_surface(view, sorted_facets(view));
+  std::vector<Vec3> surface;
+  for (const VertexId v : facets.vertices_of[0]) surface.push_back(view.local_points()[v]);
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(point_set_distance(boundary, surface));
+  const auto points = static_cast<double>(boundary.size() + surface.size());
+  bench::count_work(state, points, 2 * points * sizeof(Vec3));
+}
+
 void sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->Arg(48)
       ->Arg(128)
@@ -131,6 +148,9 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
       ->UseRealTime();
 }
 
+BENCHMARK(bench::stream_copy)->Name("KernelStreamCopy")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(bench::stream_triad)->Name("KernelStreamTriad")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(KernelPointSetDistance)->Apply(sizes);
 BENCHMARK(Evaluate)->Apply(sizes);
 BENCHMARK(EvaluateCertified)->Apply(sizes);
 BENCHMARK(ElementQuality)->Apply(sizes);

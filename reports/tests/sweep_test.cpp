@@ -100,14 +100,19 @@ TEST(Sweep, MicrobenchmarksAreATable) {
   const auto file = folder.path() / "micro.json";
   write_text_file(file, R"({"benchmarks": [{"name": "lattice/48", "run_type": "iteration", "iterations": 7,
     "real_time": 2.5, "cpu_time": 2000.0, "time_unit": "ms", "items_per_second": 12000.0}]})");
-  const Table table = microbenchmark_table(file);
-  ASSERT_EQ(table.rows.size(), 1U);
+  const auto other = folder.path() / "other.json";
+  write_text_file(other, R"({"benchmarks": [{"name": "copy", "of_bandwidth": 0.425}]})");
+  const Table table = microbenchmark_table(read_microbenchmarks({file, other}));
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.rows[1].case_name, "copy");
+  EXPECT_EQ(cell_text(table.rows[1].cells[5], 3), "42.50");
+  EXPECT_FALSE(table.rows[0].cells[5].value.has_value());
   EXPECT_EQ(table.rows[0].cells[0].value, 2.5);
   EXPECT_EQ(table.rows[0].cells[3].value, 12000);
   EXPECT_FALSE(table.rows[0].cells[4].value.has_value());
   write_text_file(file, "[]");
-  EXPECT_THROW(microbenchmark_table(file), InputError);
-  EXPECT_THROW(microbenchmark_table(folder.path() / "none"), InputError);
+  EXPECT_THROW(read_microbenchmarks({other, file}), InputError);
+  EXPECT_THROW(read_microbenchmarks({folder.path() / "none"}), InputError);
 }
 
 TEST(Chart, TicksAreThoseAPersonWouldChoose) {

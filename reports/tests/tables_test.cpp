@@ -143,7 +143,7 @@ TEST(Tables, AMesherThatDidNotRunACaseIsADash) {
 
 TEST(Tables, VerticesAreShownForMixedMeshes) {
   Json mixed = line("nidus", "cbc3d-mixed", 1);
-  EXPECT_EQ(build_tables({mixed}, {}).size(), 5U);
+  EXPECT_EQ(build_tables({mixed}, {}).size(), 6U);
   mixed["counts"]["hexes"] = 12;
   EXPECT_EQ(row(table(build_tables({mixed}, {}), "vertices"), "hexahedra").cells[0].value, 12);
 }
