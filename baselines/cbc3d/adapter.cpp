@@ -41,6 +41,10 @@ std::vector<ParameterSpec> parameters() {
       {"material-poisson", "none", "LABEL=NU", "Poisson's ratio of one label"},
       {"min-scaled-jacobian", "0.2", "", "smallest scaled Jacobian of hexes and pyramids that is kept"},
       {"min-dihedral", "5", "deg", "smallest dihedral angle that the deformation keeps"},
+      {"deviation", "0.15", "voxel diagonals", "improvement: facets stay so near to the boundary"},
+      {"smoothness", "0", "", "improvement: share of the pull to the boundary that goes to smooth surfaces"},
+      {"smoothness-cap", "deviation", "mm", "smoothness moves no vertex farther from the boundary"},
+      {"gradation", "none", "", "improvement: growth of inner edges by the distance to the surfaces"},
   };
 }
 

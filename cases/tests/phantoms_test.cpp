@@ -88,7 +88,9 @@ TEST(Phantoms, RingsHaveTheirVolumesAndAreClearOfEachOther) {
       for (int r = 0; r < 3; ++r) d[static_cast<std::size_t>(r)] = distance(p, r + 1);
       std::sort(d.begin(), d.end());
       nearest = std::min(nearest, d[0] + d[1]);
-      if (p.min_coeff() == 0 || p.max_coeff() == 79) EXPECT_GT(d[0], 1);
+      if (p.min_coeff() == 0 || p.max_coeff() == 79) {
+        EXPECT_GT(d[0], 1);
+      }
     }
     EXPECT_GT(nearest, 2);
   }

@@ -86,31 +86,37 @@ struct VertexMover {
   }
 
   /// The normals of all vertices that are on one interface and may move: locked ones do not know all of their
-  /// facets.
+  /// facets. Weights by Max (J. Graphics Tools 4, 1999), exact on spheres however the facets are cut.
   void find_normals() {
     const TetComplex& mesh = patch.mesh;
     normal.assign(mesh.vertex_count(), {});
-    std::vector<double> area(mesh.vertex_count(), 0);
+    std::vector<double> length(mesh.vertex_count(), 0);  // of the sum, were all facets parallel
     for (TetId t = 0; t < mesh.tet_slots(); ++t) {
       for (unsigned n = 0; mesh.alive(t) && n < 4; ++n) {
-        if (mesh.material(t) <= mesh.material_across(t, n)) {
-          continue;
-        }
-        const auto& nodes = mesh.nodes(t);
-        const Vec3& p = mesh.point(nodes[kTetFace[n][0]]);
-        const Vec3 vector =
-            (mesh.point(nodes[kTetFace[n][1]]) - p).cross(mesh.point(nodes[kTetFace[n][2]]) - p);
-        for (const unsigned corner : kTetFace[n]) {
-          normal[nodes[corner]] += vector;
-          area[nodes[corner]] += vector.norm();
+        if (mesh.material(t) > mesh.material_across(t, n)) {
+          add_normals(mesh.nodes(t), n, length);
         }
       }
     }
-    constexpr double kLeastOfArea = 0.3;  // a tip or a pinch has no normal
+    constexpr double kLeast = 0.6;  // a tip, a sharp edge or a pinch has no normal
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-      const double length = normal[v].norm();
-      const bool known = !mesh.locked(v) && patch.sets[v].size == 2 && length > kLeastOfArea * area[v];
-      normal[v] = known ? normal[v] / length : Vec3{};
+      const double norm = normal[v].norm();
+      const bool known = !mesh.locked(v) && patch.sets[v].size == 2 && norm > kLeast * length[v];
+      normal[v] = known ? normal[v] / norm : Vec3{};
+    }
+  }
+
+  void add_normals(const std::array<VertexId, 4>& nodes, unsigned n, std::vector<double>& length) {
+    std::array<Vec3, 3> side{};  // side c goes from corner c to the next
+    for (unsigned c = 0; c < 3; ++c) {
+      side[c] = patch.mesh.point(nodes[kTetFace[n][(c + 1) % 3]]) - patch.mesh.point(nodes[kTetFace[n][c]]);
+    }
+    const Vec3 vector = side[0].cross(side[1]);
+    for (unsigned c = 0; c < 3; ++c) {
+      const VertexId v = nodes[kTetFace[n][c]];
+      const Vec3 weighted = vector / (side[c].squared_norm() * side[(c + 2) % 3].squared_norm());
+      normal[v] += weighted;
+      length[v] += weighted.norm();
     }
   }
 

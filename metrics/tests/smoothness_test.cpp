@@ -266,7 +266,7 @@ TEST(ShapeDeviation, FineSphereIsSmoothAsItsFacetsAreSmall) {
     ASSERT_EQ(triangles.size(), static_cast<std::size_t>(20 * n * n));
     const ShapeDeviation found = shape_deviation(triangles, sphere, {});
     const double expected = mean_angle_deg(triangles);
-    EXPECT_NEAR(found.mean_normal_deviation_deg, expected, .035 * expected) << n;
+    EXPECT_NEAR(found.mean_normal_deviation_deg, expected, .04 * expected) << n;  // 3 % is the rule's own
     // Over equilateral triangles on a sphere: .9201 times their inner radius, over the sphere's.
     const double side =
         std::sqrt(found.mesh_area_mm2 / static_cast<double>(triangles.size()) * 4 / std::sqrt(3));
