@@ -36,7 +36,7 @@ struct Patch {
   std::vector<FreshTet> fresh;
   EdgeRing ring, ring_other;
 
-  /// Edges within a material grow no longer than the mean of this at their ends, mm; empty: no limit.
+  /// No inner vertex vanishes for edges longer than the mean of this at their ends, mm; empty: no limit.
   std::vector<double> longest_mm = {};
 };
 

@@ -29,8 +29,8 @@ struct ImproveOptions {
   double smoothness_cap_mm =
       0;  ///< smoothness moves no vertex farther from the boundary; 0: deviation_diagonals
   std::map<Label, double> size_mm;  ///< the decimation makes no edge of these labels longer
-  /// The decimation makes no edge within a material longer than the edges of the nearest interface and this
-  /// times the way to there, about (see graded_sizes); below 0: no limit.
+  /// No inner vertex vanishes for edges longer than those of the nearest interface and this times the way to
+  /// there, about (see graded_sizes); interfaces thin out as ever. Below 0: no limit.
   double gradation = -1;
   int decimation_rounds = 3;  ///< 0: as many tets as before
   int repair_rounds = 8;      ///< at most; they end when the goal is reached

@@ -191,7 +191,7 @@ TEST(Smoothness, IsTheSameAtAnyThreadCount) {
 
 // ---- gradation
 
-/// Calls visit(a, b, inner) for every edge; inner: not both ends are on interfaces.
+/// Calls visit(a, b, inner) for every edge; inner: neither end is on an interface.
 template <typename Visit>
 void for_each_edge(const MaterialMesh& mesh, const Visit& visit) {
   const auto sets = vertex_materials(mesh.tets, mesh.materials, tet_neighbours(mesh.tets, mesh.points.size()),
@@ -199,7 +199,7 @@ void for_each_edge(const MaterialMesh& mesh, const Visit& visit) {
   for (const auto& n : mesh.tets) {
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = i + 1; j < 4; ++j) {
-        visit(n[i], n[j], sets[n[i]].size < 2 || sets[n[j]].size < 2);
+        visit(n[i], n[j], sets[n[i]].size < 2 && sets[n[j]].size < 2);
       }
     }
   }
