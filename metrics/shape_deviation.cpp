@@ -15,15 +15,32 @@ struct WeightedPoint {
   double weight;
 };
 
-// Exact for cubics on a triangle.
-constexpr double kThird = 1.0 / 3, kVertex = 1.0 / 20, kEdge = 2.0 / 15;
-constexpr std::array<WeightedPoint, 7> kRule{{{{1, 0, 0}, kVertex},
-                                              {{0, 1, 0}, kVertex},
-                                              {{0, 0, 1}, kVertex},
-                                              {{.5, .5, 0}, kEdge},
-                                              {{0, .5, .5}, kEdge},
-                                              {{.5, 0, .5}, kEdge},
-                                              {{kThird, kThird, kThird}, 9.0 / 20}}};
+// The seven-point rule, exact for cubics, on each of the four triangles between the corners and the middles
+// of the sides. On the whole triangle it would give too little for the angle, which over a facet on a smooth
+// surface is a cone with its tip at the centroid, where that rule has its largest weight: a quarter on a
+// sphere.
+constexpr double kCorner = 1.0 / 80, kMiddle = 3.0 / 80, kQuarter = 1.0 / 30, kInner = 1.0 / 15,
+                 kCentroid = 9.0 / 80;
+constexpr double kThird = 1.0 / 3, kSixth = 1.0 / 6;
+constexpr std::array<WeightedPoint, 19> kRule{{{{1, 0, 0}, kCorner},
+                                               {{0, 1, 0}, kCorner},
+                                               {{0, 0, 1}, kCorner},
+                                               {{.5, .5, 0}, kMiddle},
+                                               {{0, .5, .5}, kMiddle},
+                                               {{.5, 0, .5}, kMiddle},
+                                               {{.75, .25, 0}, kQuarter},
+                                               {{.25, .75, 0}, kQuarter},
+                                               {{0, .75, .25}, kQuarter},
+                                               {{0, .25, .75}, kQuarter},
+                                               {{.75, 0, .25}, kQuarter},
+                                               {{.25, 0, .75}, kQuarter},
+                                               {{.5, .25, .25}, kInner},
+                                               {{.25, .5, .25}, kInner},
+                                               {{.25, .25, .5}, kInner},
+                                               {{kThird, kThird, kThird}, kCentroid},
+                                               {{2 * kThird, kSixth, kSixth}, kCentroid},
+                                               {{kSixth, 2 * kThird, kSixth}, kCentroid},
+                                               {{kSixth, kSixth, 2 * kThird}, kCentroid}}};
 
 // A shape near a point.
 struct ShapeAt {

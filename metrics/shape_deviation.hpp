@@ -15,8 +15,8 @@ namespace cbc3d::metrics {
 /// (mm). Called from several threads.
 using SignedDistance = std::function<double(const Vec3&)>;
 
-/// A label's surface against the zero level of its signed distance. Integrals are by the seven-point rule of
-/// surface_samples.hpp on each triangle, so that facets may be large.
+/// A label's surface against the zero level of its signed distance. Integrals are by 19 points on each
+/// triangle, so that facets may be large.
 struct ShapeDeviation {
   Label label = 0;
   /// Mean over the mesh's surface of the angle between the facet's normal and the shape's, degrees in
@@ -28,7 +28,9 @@ struct ShapeDeviation {
   /// Area of the part of the shape that the mesh's surface lies over: the flux of the shape's normals through
   /// the facets, carried to the shape to first order in distance times curvature.
   double shape_area_mm2 = 0;
-  /// 100 (mesh area / shape area - 1): 0 for a perfect surface, 50 for the voxel faces of a large ball.
+  /// 100 (mesh area / shape area - 1): 0 for a perfect surface, 50 for the voxel faces of a large ball. It
+  /// has a sign: wrinkles make it positive, while facets with their corners on a convex shape and their
+  /// middles below it have a little less area than the shape.
   double area_excess_percent = 0;
 };
 

@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdint>
 
+#include "cases/phantoms/model.hpp"
 #include "mesher/core/label_image.hpp"
 
 namespace cbc3d::cases {
 
 LabelImage organs_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 LabelImage shells_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
+LabelImage rings_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 LabelImage vessels_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 LabelImage noisy_vessels_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 
@@ -31,5 +33,21 @@ struct ShellsShape {
   std::array<double, 4> radii;
 };
 ShellsShape shells_shape(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
+
+/// Exact everywhere. A label's region but the innermost lies between two spheres.
+SignedDistance shells_distance(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
+
+/// A ring: the points nearer to a circle than `tube_radius`.
+struct Ring {
+  Vec3 centre, axis;  ///< of the circle; axis of length 1
+  double radius, tube_radius;
+};
+
+/// The rings of rings_phantom, label 1 first: 2 and 3 are links through opposite sides of 1, nowhere nearer
+/// to each other than to it.
+std::array<Ring, 3> rings_shape(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
+
+/// Exact everywhere.
+SignedDistance rings_distance(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 
 }  // namespace cbc3d::cases

@@ -10,6 +10,9 @@
 
 namespace cbc3d::cases {
 
+/// Signed distance of a label's region at a physical position, mm, negative inside.
+using SignedDistance = std::function<double(const Vec3& physical_mm, Label label)>;
+
 struct Layer {
   MaterialId material;
   /// Paints slice k of a frame; safe to call from several threads.

@@ -11,14 +11,29 @@
 namespace cbc3d::cases {
 namespace {
 
-constexpr std::array<PhantomKind, 8> kKinds{{
+constexpr std::array<PhantomKind, 9> kKinds{{
     {"organs",
      "body (1) with an organ (2), a ring-shaped vessel (3) around and into it, and a lesion (4) in it",
      {96, 96, 64},
      {1, 1, 1.5},
      1,
      organs_phantom},
-    {"shells", "four nested balls, label 1 outermost", {80, 80, 54}, {1, 1, 1.5}, 1, shells_phantom},
+    {"shells",
+     "four nested balls, label 1 outermost",
+     {80, 80, 54},
+     {1, 1, 1.5},
+     1,
+     shells_phantom,
+     nullptr,
+     shells_distance},
+    {"rings",
+     "three linked rings, of thick (1), thin (2) and very thin (3) tubes",
+     {80, 80, 80},
+     {1, 1, 1},
+     1,
+     rings_phantom,
+     nullptr,
+     rings_distance},
     {"vessels",
      "tree of tapering vessels with an aneurysm (1)",
      {128, 128, 127},
@@ -111,6 +126,9 @@ LabelImage make_phantom(const Phantom& phantom) {
 
 SignedDistance phantom_signed_distance(const Phantom& phantom) {
   const PhantomKind& kind = require_kind(phantom);
+  if (kind.distance != nullptr) {
+    return kind.distance(phantom.size, phantom.spacing_mm, phantom.seed);
+  }
   if (kind.model == nullptr) {
     return {};
   }

@@ -25,6 +25,8 @@ struct PhantomKind {
   LabelImage (*generate)(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
   /// Those made of solids, in any number of slices at a time; then `generate` is nullptr.
   PhantomModel (*model)(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed) = nullptr;
+  /// The true shape behind `generate`, exact; nullptr where it is not known.
+  SignedDistance (*distance)(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed) = nullptr;
 };
 
 std::span<const PhantomKind> phantom_kinds();
@@ -49,11 +51,9 @@ LabelImage make_phantom(const Phantom& phantom);
 std::string write_phantom(const Phantom& phantom, const std::filesystem::path& path,
                           std::size_t streamed_voxels = std::size_t{1} << 30U);
 
-/// The true shape behind a phantom: signed distance of a label's region at a physical position, mm, negative
-/// inside. The sign agrees with the voxels at their centres; the size is exact but where two solids meet at
-/// an edge, there a lower bound; NaN for labels whose shape is no closed form (the folded brain). An empty
-/// function for phantoms that know none.
-using SignedDistance = std::function<double(const Vec3& physical_mm, Label label)>;
+/// The true shape behind a phantom. The sign agrees with the voxels at their centres; the size is exact but
+/// where two solids meet at an edge, there a lower bound; NaN for labels whose shape is no closed form (the
+/// folded brain). An empty function for phantoms that know none.
 SignedDistance phantom_signed_distance(const Phantom& phantom);
 
 }  // namespace cbc3d::cases

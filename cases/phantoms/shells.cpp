@@ -1,4 +1,7 @@
 // Balls within balls: smooth interfaces with no junction, every volume known.
+#include <algorithm>
+#include <limits>
+
 #include "cases/phantoms/generators.hpp"
 #include "cases/phantoms/random.hpp"
 #include "cases/phantoms/shapes.hpp"
@@ -27,6 +30,19 @@ LabelImage shells_phantom(const Index3& size, const Vec3& spacing_mm, std::uint6
     return material;
   });
   return image;
+}
+
+SignedDistance shells_distance(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed) {
+  // Phantoms have their origin at 0 and axes along the patient's: local positions are physical ones.
+  return [shape = shells_shape(size, spacing_mm, seed)](const Vec3& physical_mm, Label label) {
+    const double radius = (physical_mm - shape.centre).norm();
+    const auto shell = static_cast<std::size_t>(label);
+    if (shell < 1 || shell > shape.radii.size()) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const double outside = radius - shape.radii[shell - 1];
+    return shell < shape.radii.size() ? std::max(outside, shape.radii[shell] - radius) : outside;
+  };
 }
 
 }  // namespace cbc3d::cases

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cases/phantoms/generators.hpp"
@@ -68,6 +69,61 @@ TEST(Phantoms, ShellsHaveTheirVolumes) {
     const double expected = ball(shape.radii[s]) - inner;
     EXPECT_NEAR(volume[s + 1], expected, .03 * expected) << s;
   }
+}
+
+TEST(Phantoms, RingsHaveTheirVolumesAndAreClearOfEachOther) {
+  const PhantomKind& kind = *find_phantom("rings");
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const std::array<Ring, 3> rings = rings_shape(kind.size, kind.spacing_mm, seed);
+    const auto volume = volumes_mm3(rings_phantom(kind.size, kind.spacing_mm, seed));
+    for (std::size_t r = 0; r < 3; ++r) {
+      const double expected = 2 * M_PI * M_PI * rings[r].radius * rings[r].tube_radius * rings[r].tube_radius;
+      EXPECT_NEAR(volume[r + 1], expected, .03 * expected) << r;
+    }
+    const SignedDistance distance = rings_distance(kind.size, kind.spacing_mm, seed);
+    double nearest = 1e9;  // sum of the distances to two rings: the gap at least
+    for (int voxel = 0; voxel < 80 * 80 * 80; ++voxel) {
+      std::array<double, 3> d{};
+      const Vec3 p{double(voxel % 80), double(voxel / 80 % 80), double(voxel / 6400)};
+      for (int r = 0; r < 3; ++r) d[static_cast<std::size_t>(r)] = distance(p, r + 1);
+      std::sort(d.begin(), d.end());
+      nearest = std::min(nearest, d[0] + d[1]);
+      if (p.min_coeff() == 0 || p.max_coeff() == 79) {
+        EXPECT_GT(d[0], 1);
+      }
+    }
+    EXPECT_GT(nearest, 2);
+  }
+}
+
+TEST(Phantoms, TrueDistanceIsThatOfTheVoxelsAndOfTheFormula) {
+  for (const char* name : {"shells", "rings"}) {
+    const PhantomKind& kind = *find_phantom(name);
+    const Phantom phantom{name, kind.size, kind.spacing_mm, 3, ""};
+    const LabelImage image = make_phantom(phantom);
+    const SignedDistance distance = phantom_signed_distance(phantom);
+    EXPECT_TRUE(std::isnan(distance({0, 0, 0}, 0)));
+    EXPECT_TRUE(std::isnan(distance({0, 0, 0}, static_cast<Label>(image.labels.size()))));
+    for (std::size_t v = 0; v < image.voxels.size(); v += 7) {
+      const Index3 at = image.frame.index_of(v);
+      const Vec3 p = image.frame.local_centre(at[0], at[1], at[2]);
+      for (std::size_t m = 1; m < image.labels.size(); ++m) {
+        const double d = distance(p, image.labels[m]);
+        ASSERT_EQ(d <= 0, image.voxels[v] == m) << name << ' ' << v;
+        ASSERT_LE(std::abs(distance(p + Vec3{0, 1, 0}, image.labels[m]) - d), 1 + 1e-9);
+      }
+    }
+  }
+  const PhantomKind& kind = *find_phantom("shells");
+  const ShellsShape shape = shells_shape(kind.size, kind.spacing_mm, 3);
+  const SignedDistance distance = shells_distance(kind.size, kind.spacing_mm, 3);
+  const auto at = [&](double radius, Label label) {
+    return distance(shape.centre + radius * Vec3{.6, 0, -.8}, label);
+  };
+  EXPECT_NEAR(at(shape.radii[1] + 1, 1), -1, 1e-12);  // just outside the inner of its two spheres
+  EXPECT_NEAR(at(shape.radii[1] - 1, 1), 1, 1e-12);
+  EXPECT_NEAR(at(shape.radii[0] + 2, 1), 2, 1e-12);
+  EXPECT_NEAR(at(0, 4), -shape.radii[3], 1e-12);
 }
 
 TEST(Phantoms, BoxAndBall) {

@@ -29,6 +29,9 @@ nlohmann::json options_json(const RunDescription& run, const MeshImageReport& re
     options["min_dihedral_deg"] = o.improve.min_dihedral_deg;
     options["decimation_rounds"] = o.improve.decimation_rounds;
     options["deviation_diagonals"] = o.improve.deviation_diagonals;
+    options["smoothness"] = o.improve.smoothness;
+    options["smoothness_cap_mm"] = o.improve.smoothness_cap_mm;
+    options["gradation"] = o.improve.gradation >= 0 ? nlohmann::json(o.improve.gradation) : nlohmann::json();
   }
   return options;
 }

@@ -187,6 +187,22 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
                        "improvement: facets stay so near to the boundary, voxel diagonals [0.15]",
                        [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; })
       ->check(CLI::Range(0.01, 2.0));
+  add_override<double>(
+      app, overrides, "--smoothness",
+      "improvement: how much of the pull to the boundary goes to smooth surfaces, in [0,1] [0]",
+      [](MeshImageOptions& o) -> double& { return o.improve.smoothness; })
+      ->check(CLI::Range(0.0, 1.0));
+  add_override<double>(
+      app, overrides, "--smoothness-cap",
+      "improvement: smoothness moves no vertex farther from the boundary, mm [what --deviation allows]",
+      [](MeshImageOptions& o) -> double& { return o.improve.smoothness_cap_mm; })
+      ->check(CLI::PositiveNumber);
+  add_override<double>(
+      app, overrides, "--gradation",
+      "improvement: the decimation makes no inner edge longer than the edges of the nearest surface and this "
+      "times the distance to it, about; 0: as long as those [no limit]",
+      [](MeshImageOptions& o) -> double& { return o.improve.gradation; })
+      ->check(CLI::NonNegativeNumber);
 }
 
 void add_mixed_options(CLI::App& app, Overrides& overrides) {

@@ -163,8 +163,21 @@ class EdgeCollapser {
                                       (r - to).squared_norm()}) > longest_squared) {
         return -1;
       }
+      if (options_.graded && !on_facets_ &&
+          !grows_slowly(v, {nodes[face[0]], nodes[face[1]], nodes[face[2]]})) {
+        return -1;
+      }
     }
     return worst;
+  }
+
+  /// False when an edge from v to one of these would be longer than it may.
+  [[nodiscard]] bool grows_slowly(VertexId v, const std::array<VertexId, 3>& ends) const {
+    const std::vector<double>& longest = patch_.longest_mm;
+    return std::all_of(ends.begin(), ends.end(), [&](VertexId w) {
+      const double limit = 0.5 * (longest[v] + longest[w]);
+      return (mesh_.point(v) - mesh_.point(w)).squared_norm() <= limit * limit;
+    });
   }
 
   /// Link condition: what both ends are joined to is joined to the edge, and along interfaces by facets.

@@ -11,6 +11,7 @@ struct CollapseOptions {
   const std::vector<double>* longest_mm =
       nullptr;            ///< nor, in tets of material m, than (*longest_mm)[m]; null: no limit
   bool only_bad = false;  ///< only vertices of tets below the threshold, where that lifts the worst
+  bool graded = false;    ///< where inner vertices vanish new edges keep to Patch::longest_mm
 };
 
 /// One pass over all vertices in order: each is drawn onto the neighbour that leaves the best worst angle,

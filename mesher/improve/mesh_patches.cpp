@@ -230,6 +230,11 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
                 {},
                 {},
                 {}};
+    if (!rules.longest_mm.empty()) {
+      for (const VertexId v : local.vertices) {
+        patch.longest_mm.push_back(rules.longest_mm[v]);
+      }
+    }
     patch.sets.resize(local.vertices.size());
     patch.cover.resize(local.vertices.size());
     set_up_vertices(patch, local.tets_at);

@@ -20,6 +20,7 @@ struct PatchRules {
   std::size_t patch_tets = 15000;             ///< tets of a patch, about
   std::span<const float> far_reach_mm = {};   ///< a point's own reach where above 0; empty: none has one
   std::span<const std::uint8_t> locked = {};  ///< vertices that must stay; empty: none
+  std::span<const double> longest_mm = {};    ///< Patch::longest_mm of every vertex; empty: no limit
 };
 
 /// Cuts the mesh, calls improve(patch) for every patch in parallel, and puts the results back. `hosts` has

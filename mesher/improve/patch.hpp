@@ -35,6 +35,9 @@ struct Patch {
   std::vector<VertexId> around, around_other;
   std::vector<FreshTet> fresh;
   EdgeRing ring, ring_other;
+
+  /// No inner vertex vanishes for edges longer than the mean of this at their ends, mm; empty: no limit.
+  std::vector<double> longest_mm = {};
 };
 
 }  // namespace cbc3d

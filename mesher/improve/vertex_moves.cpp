@@ -33,10 +33,19 @@ struct Plane {
   double offset_mm;  // distance at the vertex
 };
 
+/// Of a plane's squared offset, per mm^2.
+struct Weights {
+  double boundary, flat;
+};
+
+enum class Step { taken, none_needed, refused };
+
 struct VertexMover {
   Patch& patch;
   Link link;
   std::vector<Plane> planes;
+  std::vector<Plane> flat;   // where the neighbours would have the vertex
+  std::vector<Vec3> normal;  // of vertices on one interface alone, zero elsewhere; empty: no smoothness
   std::vector<std::array<MaterialId, 2>> pairs;
 
   explicit VertexMover(Patch& p) : patch(p) {}
@@ -76,6 +85,56 @@ struct VertexMover {
     return true;
   }
 
+  /// The normals of all vertices that are on one interface and may move: locked ones do not know all of their
+  /// facets. Weights by Max (J. Graphics Tools 4, 1999), exact on spheres however the facets are cut.
+  void find_normals() {
+    const TetComplex& mesh = patch.mesh;
+    normal.assign(mesh.vertex_count(), {});
+    std::vector<double> length(mesh.vertex_count(), 0);  // of the sum, were all facets parallel
+    for (TetId t = 0; t < mesh.tet_slots(); ++t) {
+      for (unsigned n = 0; mesh.alive(t) && n < 4; ++n) {
+        if (mesh.material(t) > mesh.material_across(t, n)) {
+          add_normals(mesh.nodes(t), n, length);
+        }
+      }
+    }
+    constexpr double kLeast = 0.6;  // a tip, a sharp edge or a pinch has no normal
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+      const double norm = normal[v].norm();
+      const bool known = !mesh.locked(v) && patch.sets[v].size == 2 && norm > kLeast * length[v];
+      normal[v] = known ? normal[v] / norm : Vec3{};
+    }
+  }
+
+  void add_normals(const std::array<VertexId, 4>& nodes, unsigned n, std::vector<double>& length) {
+    std::array<Vec3, 3> side{};  // side c goes from corner c to the next
+    for (unsigned c = 0; c < 3; ++c) {
+      side[c] = patch.mesh.point(nodes[kTetFace[n][(c + 1) % 3]]) - patch.mesh.point(nodes[kTetFace[n][c]]);
+    }
+    const Vec3 vector = side[0].cross(side[1]);
+    for (unsigned c = 0; c < 3; ++c) {
+      const VertexId v = nodes[kTetFace[n][c]];
+      const Vec3 weighted = vector / (side[c].squared_norm() * side[(c + 2) % 3].squared_norm());
+      normal[v] += weighted;
+      length[v] += weighted.norm();
+    }
+  }
+
+  /// What the neighbours on the same interface say of v at x.
+  void find_flat(VertexId v, const Vec3& x) {
+    flat.clear();
+    if (normal.empty() || pairs.size() != 1 || normal[v].squared_norm() == 0) {
+      return;
+    }
+    for (const VertexId w : possible_hosts()) {
+      const Vec3 sum = normal[v] + normal[w];
+      if (normal[w].squared_norm() > 0 && sum.squared_norm() > 1) {
+        const Vec3 m = sum.normalized();
+        flat.push_back({m, m.dot(x - patch.mesh.point(w))});
+      }
+    }
+  }
+
   [[nodiscard]] double deviation(const Vec3& x) const {
     double largest = 0;
     for (const auto& [inner, outer] : pairs) {
@@ -86,7 +145,7 @@ struct VertexMover {
 
   /// True when x is near enough to its boundaries, or nearer (in the mean of squares) than the planes say the
   /// vertex was.
-  [[nodiscard]] bool stays_near(const Vec3& x) const {
+  [[nodiscard]] bool stays_near(const Vec3& x, double near_mm) const {
     double before = 0;
     for (const Plane& plane : planes) {
       before += plane.offset_mm * plane.offset_mm;
@@ -98,11 +157,11 @@ struct VertexMover {
       after += d * d;
       largest = std::max(largest, d);
     }
-    return largest <= patch.guards.deviation_mm || after <= before;
+    return largest <= near_mm || after <= before;
   }
 
   /// Energy at x + step, or a negative number when a tet would turn over.
-  [[nodiscard]] double energy(const Vec3& x, const Vec3& step, double weight) const {
+  [[nodiscard]] double energy(const Vec3& x, const Vec3& step, const Weights& weights) const {
     double sum = 0;
     const Vec3 at = x + step;
     for (const auto& face : link) {
@@ -112,10 +171,14 @@ struct VertexMover {
       }
       sum += e;
     }
-    for (const Plane& plane : planes) {
-      const double offset = plane.offset_mm + plane.normal.dot(step);
-      sum += 0.5 * weight * offset * offset;
-    }
+    const auto add_planes = [&](const std::vector<Plane>& some, double weight) {
+      for (const Plane& plane : some) {
+        const double offset = plane.offset_mm + plane.normal.dot(step);
+        sum += 0.5 * weight * offset * offset;
+      }
+    };
+    add_planes(planes, weights.boundary);
+    add_planes(flat, weights.flat);
     return sum;
   }
 
@@ -144,7 +207,7 @@ struct VertexMover {
     return true;
   }
 
-  bool strays(VertexId v) { return load(v) && deviation(patch.mesh.point(v)) > patch.guards.deviation_mm; }
+  bool strays(VertexId v, double near_mm) { return load(v) && deviation(patch.mesh.point(v)) > near_mm; }
 
   bool relax(VertexId v, const RelaxOptions& options) {
     if (!load(v)) {
@@ -154,33 +217,56 @@ struct VertexMover {
     if (!pairs.empty() && !find_planes(x)) {
       return false;
     }
-    const double h_squared = mean_squared_distance(link, x);
+    find_flat(v, x);
+    Step step = newton(v, x, options);
+    if (step == Step::refused && !flat.empty()) {
+      flat.clear();
+      step = newton(v, x, options);
+    }
+    return step == Step::taken;
+  }
+
+  [[nodiscard]] Weights weights_of(const RelaxOptions& options) const {
     const double weight = options.surface_weight / (patch.guards.scale_mm * patch.guards.scale_mm);
+    if (flat.empty()) {
+      return {weight, 0};
+    }
+    return {(1 - options.smoothness) * weight,
+            options.smoothness * weight / static_cast<double>(flat.size())};
+  }
+
+  /// Takes the step from x, if there is one; with smoothness where `flat` says something.
+  Step newton(VertexId v, const Vec3& x, const RelaxOptions& options) {
+    const Weights weights = weights_of(options);
     ShapeTerm sum;
     for (const auto& face : link) {
       if (!add_shape_term(x, face[0], face[1], face[2], sum)) {
-        return false;
+        return Step::refused;
       }
     }
     for (const Plane& plane : planes) {
-      add_plane_term(plane.normal, plane.offset_mm, weight, sum);
+      add_plane_term(plane.normal, plane.offset_mm, weights.boundary, sum);
     }
+    for (const Plane& plane : flat) {
+      add_plane_term(plane.normal, plane.offset_mm, weights.flat, sum);
+    }
+    const double near_mm = flat.empty() ? patch.guards.deviation_mm : options.smoothness_cap_mm;
     Vec3 step = newton_step(sum);
     const double length = step.norm();
-    const double longest = options.max_step * std::sqrt(h_squared);
+    const double longest = options.max_step * std::sqrt(mean_squared_distance(link, x));
     if (!(length > options.skip_below_mm)) {
-      return false;
+      return Step::none_needed;
     }
     if (length > longest) {
       step *= longest / length;
     }
     for (int attempt = 0; attempt < 5; ++attempt, step *= 0.5) {
-      const double after = energy(x, step, weight);
-      if (after >= 0 && after < sum.energy && stays_near(x + step) && move(v, x + step)) {
-        return true;
+      const double after = energy(x, step, weights);
+      if (after >= 0 && after < sum.energy && stays_near(x + step, near_mm) && move(v, x + step)) {
+        return Step::taken;
       }
     }
-    return false;
+    return Step::refused;
   }
 
   bool climb(VertexId v, double goal) {
@@ -223,6 +309,9 @@ struct VertexMover {
 
 std::size_t relax_vertices(Patch& patch, const RelaxOptions& options) {
   VertexMover mover(patch);
+  if (options.smoothness > 0) {
+    mover.find_normals();
+  }
   std::size_t moved = 0;
   for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
     moved += mover.relax(v, options) ? 1 : 0;
@@ -232,10 +321,13 @@ std::size_t relax_vertices(Patch& patch, const RelaxOptions& options) {
 
 std::size_t pull_strays(Patch& patch, const RelaxOptions& options) {
   VertexMover mover(patch);
+  const double near_mm = options.smoothness > 0
+                             ? std::max(patch.guards.deviation_mm, options.smoothness_cap_mm)
+                             : patch.guards.deviation_mm;
   std::size_t moved = 0;
   std::vector<VertexId> around;
   for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
-    for (int turn = 0; turn < 4 && patch.on_boundary(v) && mover.strays(v); ++turn) {
+    for (int turn = 0; turn < 4 && patch.on_boundary(v) && mover.strays(v, near_mm); ++turn) {
       const std::size_t before = moved;
       moved += mover.relax(v, options) ? 1 : 0;
       patch.mesh.star(v, patch.star);

@@ -9,6 +9,7 @@
 #include "mesher/improve/edge_collapse.hpp"
 #include "mesher/improve/edge_removal.hpp"
 #include "mesher/improve/edge_split.hpp"
+#include "mesher/improve/graded_sizes.hpp"
 #include "mesher/improve/mesh_patches.hpp"
 #include "mesher/improve/surface_crossings.hpp"
 #include "mesher/improve/tet_shape.hpp"
@@ -160,7 +161,8 @@ class Improver {
         options_(options),
         on_round_(on_round),
         goal_(sine_squared_of_deg(options.min_dihedral_deg + kMarginDeg)),
-        relax_{options.surface_weight, 0.5, 0.01 * target.scale_mm} {}
+        relax_{options.surface_weight, 0.5, 0.01 * target.scale_mm, options.smoothness,
+               options.smoothness_cap_mm > 0 ? options.smoothness_cap_mm : target.deviation_mm} {}
 
   ImproveReport run() {
     report_.tets_before = mesh_.tets.size();
@@ -208,8 +210,12 @@ class Improver {
   }
 
   void decimate() {
+    const bool graded = options_.gradation >= 0;
     const CollapseOptions collapse{goal_, kLongestGrowth,
-                                   target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false};
+                                   target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false, graded};
+    if (graded) {
+      sizes_ = graded_sizes(mesh_, options_.gradation);
+    }
     in_patches("decimation", [&](Patch& patch) {
       collapse_edges(patch, collapse);
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
@@ -223,6 +229,7 @@ class Improver {
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
     });
+    sizes_.clear();
   }
 
   /// The tets worse than `below`, and what is round them; returns how many there are. They are rare and
@@ -302,6 +309,7 @@ class Improver {
     PatchRules rules{
         target_.boundary, {target_.deviation_mm, target_.scale_mm}, hosted_.points, hosted_.reach_mm};
     rules.far_reach_mm = hosted_.far_reach_mm;
+    rules.longest_mm = sizes_;
     return rules;
   }
 
@@ -343,6 +351,7 @@ class Improver {
   double goal_;
   RelaxOptions relax_;
   Hosted hosted_{};
+  std::vector<double> sizes_;  // of a round of decimation with a gradation
   int round_ = 0;
   ImproveReport report_;
 };

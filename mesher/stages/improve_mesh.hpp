@@ -25,10 +25,17 @@ struct ImproveOptions {
   double deviation_diagonals = 0.15;  ///< facets stay so near to the boundary, voxel diagonals
   double surface_weight =
       1000;  ///< pull to the boundary against the tets' shape, distances in voxel diagonals
+  /// In [0,1]: how much of the pull to the boundary goes to smooth surfaces, see RelaxOptions; 0: none.
+  double smoothness = 0;
+  double smoothness_cap_mm =
+      0;  ///< smoothness moves no vertex farther from the boundary; 0: deviation_diagonals
   std::map<Label, double> size_mm;  ///< the decimation makes no edge of these labels longer
-  int decimation_rounds = 3;        ///< 0: as many tets as before
-  int repair_rounds = 8;            ///< at most; they end when the goal is reached
-  int untangle_rounds = 3;          ///< at most, before all else, while a tet is flat or inside out
+  /// No inner vertex vanishes for edges longer than those of the nearest interface and this times the way to
+  /// there, about (see graded_sizes); interfaces thin out as ever. Below 0: no limit.
+  double gradation = -1;
+  int decimation_rounds = 3;  ///< 0: as many tets as before
+  int repair_rounds = 8;      ///< at most; they end when the goal is reached
+  int untangle_rounds = 3;    ///< at most, before all else, while a tet is flat or inside out
   bool only_bad = false;  ///< only tets below the goal and what is round them; no relaxation, no decimation
   /// The reach is no larger than the largest distance of a point within reach was, and points beyond it are
   /// kept from growing lonelier: the distances of a finished mesh are not given away for fewer elements.

@@ -197,6 +197,111 @@ TEST(ShapeDeviation, BallOfTets) {
   EXPECT_LT(found[0].max_distance_mm, .1);
 }
 
+// The icosahedron with every facet in n x n, blown up to a sphere about the origin; outward.
+std::vector<OutwardTriangle> icosphere(double radius, int n) {
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  const std::array<Vec3, 12> corner{{{0, 1, g},
+                                     {0, 1, -g},
+                                     {0, -1, g},
+                                     {0, -1, -g},
+                                     {1, g, 0},
+                                     {1, -g, 0},
+                                     {-1, g, 0},
+                                     {-1, -g, 0},
+                                     {g, 0, 1},
+                                     {-g, 0, 1},
+                                     {g, 0, -1},
+                                     {-g, 0, -1}}};
+  std::vector<OutwardTriangle> triangles;
+  const auto near = [&](std::size_t a, std::size_t b) { return (corner[a] - corner[b]).norm() < 2.1; };
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 p = radius * a.normalized(), q = radius * b.normalized(), r = radius * c.normalized();
+    triangles.push_back(p.dot(q.cross(r)) > 0 ? OutwardTriangle{p, q, r} : OutwardTriangle{p, r, q});
+  };
+  for (std::size_t a = 0; a < 12; ++a) {
+    for (std::size_t b = a + 1; b < 12; ++b) {
+      for (std::size_t c = b + 1; c < 12; ++c) {
+        if (!near(a, b) || !near(b, c) || !near(a, c)) continue;
+        const Vec3 u = (corner[b] - corner[a]) / n, v = (corner[c] - corner[a]) / n;
+        for (int i = 0; i < n; ++i) {
+          for (int j = 0; i + j < n; ++j) {
+            const Vec3 p = corner[a] + i * u + j * v;
+            add(p, p + u, p + v);
+            if (i + j + 1 < n) add(p + u, p + u + v, p + v);
+          }
+        }
+      }
+    }
+  }
+  return triangles;
+}
+
+// Mean angle between a facet's normal and the direction from the origin, by so many points that no rule is
+// needed.
+double mean_angle_deg(const std::vector<OutwardTriangle>& triangles) {
+  constexpr int kSteps = 40;
+  double sum = 0, area = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const Vec3 vector = (b - a).cross(c - a);
+    const auto add = [&](double u, double v) {
+      const Vec3 p = a + u / kSteps * (b - a) + v / kSteps * (c - a);
+      sum += std::acos(std::min(1.0, p.normalized().dot(vector.normalized()))) * vector.norm();
+      area += vector.norm();
+    };
+    for (int i = 0; i < kSteps; ++i) {
+      for (int j = 0; i + j < kSteps; ++j) {
+        add(i + 1 / 3.0, j + 1 / 3.0);
+        if (i + j + 1 < kSteps) add(i + 2 / 3.0, j + 2 / 3.0);
+      }
+    }
+  }
+  return sum / area * 180 / M_PI;
+}
+
+TEST(ShapeDeviation, FineSphereIsSmoothAsItsFacetsAreSmall) {
+  const double radius = 20;
+  const auto sphere = [&](const Vec3& p) { return p.norm() - radius; };
+  for (const int n : {1, 4, 12}) {
+    const auto triangles = icosphere(radius, n);
+    ASSERT_EQ(triangles.size(), static_cast<std::size_t>(20 * n * n));
+    const ShapeDeviation found = shape_deviation(triangles, sphere, {});
+    const double expected = mean_angle_deg(triangles);
+    EXPECT_NEAR(found.mean_normal_deviation_deg, expected, .04 * expected) << n;  // 3 % is the rule's own
+    // Over equilateral triangles on a sphere: .9201 times their inner radius, over the sphere's.
+    const double side =
+        std::sqrt(found.mesh_area_mm2 / static_cast<double>(triangles.size()) * 4 / std::sqrt(3));
+    const double by_theory = .9201 * side / std::sqrt(12) / radius * 180 / M_PI;
+    EXPECT_NEAR(found.mean_normal_deviation_deg, by_theory, (n == 1 ? .2 : .07) * by_theory) << n;
+    // Corners on the sphere: less area than it has, as much as its polyhedron lacks.
+    const double lack = 100 * (found.mesh_area_mm2 / (4 * M_PI * radius * radius) - 1);
+    EXPECT_LT(found.area_excess_percent, 0);
+    EXPECT_NEAR(found.area_excess_percent, lack, n == 1 ? 6 : .02 * -lack) << n;
+  }
+  EXPECT_LT(shape_deviation(icosphere(radius, 40), sphere, {}).mean_normal_deviation_deg, .5);
+  EXPECT_NEAR(shape_deviation(icosphere(radius, 40), sphere, {}).area_excess_percent, 0, .03);
+}
+
+TEST(ShapeDeviation, WrinklesCountAndAShellHasTwoSides) {
+  // Every corner of the sphere in or out by a little: normals turn, area grows.
+  const double radius = 20;
+  const auto shell = [&](const Vec3& p) { return std::max(p.norm() - radius, radius / 2 - p.norm()); };
+  auto triangles = icosphere(radius, 16);
+  const ShapeDeviation smooth = shape_deviation(triangles, shell, {});
+  auto inner = icosphere(radius / 2, 16);
+  for (OutwardTriangle& t : inner) std::swap(t[1], t[2]);  // away from the shell is inwards here
+  const ShapeDeviation inside = shape_deviation(inner, shell, {});
+  EXPECT_NEAR(inside.mean_normal_deviation_deg, smooth.mean_normal_deviation_deg, 1e-6);
+  EXPECT_NEAR(inside.area_excess_percent, smooth.area_excess_percent, .01);
+  for (OutwardTriangle& t : triangles) {
+    for (Vec3& p : t) p *= 1 + .01 * std::sin(97 * p.x + 61 * p.y + 31 * p.z);
+  }
+  const ShapeDeviation rough = shape_deviation(triangles, shell, {});
+  EXPECT_GT(rough.mean_normal_deviation_deg, smooth.mean_normal_deviation_deg + 3);
+  const double excess = 100 * (rough.mesh_area_mm2 / (4 * M_PI * radius * radius) - 1);
+  EXPECT_GT(excess, 1);
+  EXPECT_NEAR(rough.area_excess_percent, excess, .2);
+}
+
 TEST(ShapeDeviation, BallOfVoxels) {
   // Voxel faces over a ball: weighted by |n_z| the mean of acos |n_z| is pi/4, and the area is 3/2.
   const Vec3 centre{15.3, 15.1, 14.8};
