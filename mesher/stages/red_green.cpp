@@ -142,15 +142,15 @@ class Closure {
     });
   }
 
-  /// True when a midpoint of the face's edges was touched by the last sweep.
+  /// True when an inner segment of the face may have been split by the last sweep: each has its ends at two
+  /// of the three midpoints, so two of them are enough to look at.
   [[nodiscard]] bool is_touched_inside(const RedTet& red, unsigned face) const {
-    for (unsigned e = 0; e < 6; ++e) {
-      if ((face >> e & 1U) != 0) {
-        const LatticePoint& a = lattice_.points[red.nodes[kEdge[e][0]]];
-        const LatticePoint& b = lattice_.points[red.nodes[kEdge[e][1]]];
-        if (last_touched_[lattice_.table.find(midpoint(a, b))] + 1 == sweep_) {
-          return true;
-        }
+    for (unsigned edges = face & (face - 1); edges != 0; edges &= edges - 1) {
+      const auto e = static_cast<unsigned>(std::countr_zero(edges));
+      const LatticePoint& a = lattice_.points[red.nodes[kEdge[e][0]]];
+      const LatticePoint& b = lattice_.points[red.nodes[kEdge[e][1]]];
+      if (last_touched_[lattice_.table.find(midpoint(a, b))] + 1 == sweep_) {
+        return true;
       }
     }
     return false;
