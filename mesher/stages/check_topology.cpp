@@ -97,8 +97,10 @@ class Repair {
         classes_(image.labels),
         rank_(rank_by_size(image, classes_.of_material, BackgroundRank::highest)),
         around_(tets_of_vertices(mesh.tets.nodes, points.size())),
+        unsure_(mesh.unsure),
         class_of_tet_(classes_of_tets(classes_, mesh.materials)),
         star_(around_, mesh.tets.nodes, mesh.neighbours) {
+    unsure_.resize(points.size(), 1);
     report_.labels.resize(classes_.label.size());
     const std::vector<std::size_t> voxels = image.voxels_per_material();
     for (std::size_t m = 1; m < voxels.size(); ++m) {
@@ -106,8 +108,16 @@ class Repair {
     }
   }
 
+  /// The repair, and after it the account of the components.
   TopologyReport run() {
-    std::vector<VertexId> bad = find_non_manifold(around_, mesh_, class_of_tet_);
+    repair();
+    count_components();
+    report_.labels.erase(report_.labels.begin());
+    return std::move(report_);
+  }
+
+  void repair() {
+    std::vector<VertexId> bad = find_bad();
     report_.non_manifold_vertices = bad.size();
     for (int pass = 0; pass < options_.image_passes && !bad.empty(); ++pass) {
       touched_.clear();
@@ -123,17 +133,31 @@ class Repair {
       if (remove_small_components() == 0) {
         break;
       }
-      bad = find_non_manifold(around_, mesh_, class_of_tet_);
+      bad = find_bad();
     }
-    repair_vertices(find_non_manifold(around_, mesh_, class_of_tet_));
-    report_.non_manifold_vertices_left = find_non_manifold(around_, mesh_, class_of_tet_).size();
-    count_components();
-    report_.labels.erase(report_.labels.begin());
-    return std::move(report_);
+    repair_vertices(find_bad());
+    report_.non_manifold_vertices_left = find_bad().size();
   }
 
  private:
   static constexpr int kMostPasses = 10;
+
+  /// All vertices at which a surface is no manifold, ascending: only where that is not known to be otherwise
+  /// has to be looked.
+  std::vector<VertexId> find_bad() {
+    std::vector<VertexId> candidates;
+    for (VertexId v = 0; v < unsure_.size(); ++v) {
+      if (unsure_[v] != 0) {
+        candidates.push_back(v);
+        unsure_[v] = 0;
+      }
+    }
+    std::vector<VertexId> bad = find_non_manifold(around_, mesh_, class_of_tet_, candidates);
+    for (const VertexId v : bad) {
+      unsure_[v] = 1;
+    }
+    return bad;
+  }
 
   /// The star of v becomes what the voxel at v is.
   void force_star(VertexId v) {
@@ -260,6 +284,9 @@ class Repair {
     mesh_.materials[t] = material;
     class_of_tet_[t] = classes_.of_material[material];
     touched_.push_back(t);
+    for (const VertexId v : mesh_.tets.nodes[t]) {
+      unsure_[v] = 1;
+    }
     ++report_.tets_relabelled;
   }
 
@@ -334,6 +361,9 @@ class Repair {
   /// Relabels components that are neither their label's share of small_component nor needed for a region of
   /// the image: a label keeps as many components as its image has regions, the largest first.
   std::size_t remove_small_components() {
+    if (options_.small_component <= 0) {  // no volume is smaller
+      return 0;
+    }
     const Components components = find_components();
     std::vector<double> total(classes_.label.size(), 0);
     std::vector<std::vector<std::uint32_t>> of_class(classes_.label.size());
@@ -423,6 +453,7 @@ class Repair {
   Classes classes_;
   std::vector<std::uint32_t> rank_;
   VertexTets around_;
+  std::vector<std::uint8_t>& unsure_;  // of the mesh
   std::vector<ClassId> class_of_tet_;
   VertexStar star_;
   std::vector<TetId> touched_;
@@ -440,6 +471,11 @@ std::vector<VertexId> non_manifold_vertices(const CandidateMesh& mesh, std::size
 TopologyReport check_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
                               const TopologyOptions& options) {
   return Repair(mesh, points, image, options).run();
+}
+
+void repair_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+                     const TopologyOptions& options) {
+  Repair(mesh, points, image, options).repair();
 }
 
 }  // namespace cbc3d

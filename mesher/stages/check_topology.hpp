@@ -56,8 +56,13 @@ struct TopologyReport {
 std::vector<VertexId> non_manifold_vertices(const CandidateMesh& mesh, std::size_t vertex_count,
                                             const std::vector<Label>& label_of_material);
 
-/// Makes every label's sub-mesh a manifold and removes small components, by relabelling.
+/// Makes every label's sub-mesh a manifold and removes small components, by relabelling. Looks at the
+/// vertices that `mesh.unsure` has, and leaves there what is known then.
 TopologyReport check_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
                               const TopologyOptions& options);
+
+/// The same without the account of what was found.
+void repair_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+                     const TopologyOptions& options);
 
 }  // namespace cbc3d

@@ -124,7 +124,7 @@ InterfaceCoverage::InterfaceCoverage(const LabelImage& image)
 void InterfaceCoverage::update(const std::vector<MaterialSet>& sets, const std::vector<Vec3>& points,
                                double distance_mm) {
   wanted_.clear();
-  const std::vector<std::size_t> missing = points_without_host(interfaces_, points, sets, distance_mm);
+  const std::vector<std::size_t> missing = renew_hosts(interfaces_, points, sets, distance_mm, hosts_);
   uncovered_ = missing.size();
   for (const std::size_t p : missing) {
     want(interfaces_[p]);

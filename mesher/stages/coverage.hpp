@@ -57,13 +57,22 @@ class InterfaceCoverage {
  public:
   explicit InterfaceCoverage(const LabelImage& image);
 
-  /// Renews the answers; `sets` are the materials round the vertices at `points`.
+  /// Renews the answers; `sets` are the materials round the vertices at `points`, which may become more from
+  /// one update to the next but do not move. Always the same distance.
   void update(const std::vector<MaterialSet>& sets, const std::vector<Vec3>& points, double distance_mm);
 
   /// True when one of the voxels (i_begin ... i_end - 1, j, k) has an interface missing, or is across one.
   [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const {
     const std::size_t row = image_.frame.offset(0, j, k);
     return wanted_.any(row + static_cast<std::size_t>(i_begin), row + static_cast<std::size_t>(i_end));
+  }
+  /// Calls f(centre in local mm) for each of those voxels.
+  template <typename F>
+  void for_each_wanted(const F& f) {
+    wanted_.for_each(0, image_.frame.voxel_count(), [&](std::size_t v) {
+      const Index3 at = image_.frame.index_of(v);
+      f(image_.frame.local_centre(at[0], at[1], at[2]));
+    });
   }
   [[nodiscard]] std::size_t uncovered_count() const { return uncovered_; }
   [[nodiscard]] std::size_t point_count() const { return interfaces_.size(); }
@@ -73,6 +82,7 @@ class InterfaceCoverage {
 
   const LabelImage& image_;
   std::vector<InterfacePoint> interfaces_;
+  std::vector<VertexId> hosts_;  // of the points, as the last update found them
   VoxelBits wanted_;
   std::size_t uncovered_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "mesher/stages/interface_points.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -77,6 +79,9 @@ class VertexGrid {
 }  // namespace
 
 void MaterialSet::add(MaterialId material) {
+  if (size == 1 && ids[0] == material) {  // most often
+    return;
+  }
   const auto end = ids.begin() + size;
   const auto at = std::lower_bound(ids.begin(), end, material);
   if (at != end && *at == material) {
@@ -95,20 +100,38 @@ std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vecto
                                           const std::vector<std::array<TetId, 4>>& neighbours,
                                           std::size_t vertex_count) {
   std::vector<MaterialSet> sets(vertex_count);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    for (std::size_t n = 0; n < 4; ++n) {
-      MaterialSet& set = sets[tets[t][n]];
-      if (set.size != 1 || set.ids[0] != materials[t]) {
-        set.add(materials[t]);
-      }
-      if (neighbours[t][n] == kNoTet && materials[t] != kBackground) {
-        for (const std::uint8_t face : kTetFace[n]) {
-          sets[tets[t][face]].add(kBackground);
+  renew_vertex_materials(tets, materials, neighbours, std::vector<std::uint8_t>(vertex_count, 1), sets);
+  return sets;
+}
+
+void renew_vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
+                            const std::vector<std::array<TetId, 4>>& neighbours,
+                            const std::vector<std::uint8_t>& touched, std::vector<MaterialSet>& sets) {
+  const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    // Every thread passes over all tets for its range of vertices, so that a set sees them in order.
+    const auto begin = static_cast<VertexId>(part * sets.size() / parts);
+    const auto end = static_cast<VertexId>((part + 1) * sets.size() / parts);
+    const auto is_mine = [&](VertexId v) { return v >= begin && v < end && touched[v] != 0; };
+    for (VertexId v = begin; v < end; ++v) {
+      sets[v] = touched[v] != 0 ? MaterialSet{} : sets[v];
+    }
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+      for (std::size_t n = 0; n < 4; ++n) {
+        if (is_mine(tets[t][n])) {
+          sets[tets[t][n]].add(materials[t]);
+        }
+        if (neighbours[t][n] == kNoTet && materials[t] != kBackground) {
+          for (const std::uint8_t face : kTetFace[n]) {
+            if (is_mine(tets[t][face])) {
+              sets[tets[t][face]].add(kBackground);
+            }
+          }
         }
       }
     }
   }
-  return sets;
 }
 
 bool all_meet_near(const LabelImage& image, const Vec3& local_mm, const MaterialSet& set, double reach_mm) {
@@ -190,26 +213,41 @@ std::vector<VertexId> nearest_hosts(const std::vector<InterfacePoint>& points,
   return hosts;
 }
 
-std::vector<std::size_t> points_without_host(const std::vector<InterfacePoint>& points,
-                                             const std::vector<Vec3>& vertices,
-                                             const std::vector<MaterialSet>& sets, double reach_mm) {
-  const VertexGrid grid(vertices, sets, reach_mm);
-  std::vector<std::uint8_t> hosted(points.size(), 0);
-#pragma omp parallel for schedule(static, 1024)
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    grid.near(points[p].centre(), [&](VertexId v) {
-      hosted[p] = (vertices[v] - points[p].centre()).squared_norm() <= reach_mm * reach_mm &&
-                  points[p].is_on(sets[v]);
-      return hosted[p] != 0;
-    });
-  }
+std::vector<std::size_t> renew_hosts(const std::vector<InterfacePoint>& points,
+                                     const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets,
+                                     double reach_mm, std::vector<VertexId>& hosts) {
+  hosts.resize(points.size(), kNoVertex);
   std::vector<std::size_t> without;
   for (std::size_t p = 0; p < points.size(); ++p) {
-    if (hosted[p] == 0) {
+    if (hosts[p] == kNoVertex || !points[p].is_on(sets[hosts[p]])) {
       without.push_back(p);
     }
   }
+  if (without.empty()) {
+    return without;
+  }
+  const VertexGrid grid(vertices, sets, reach_mm);
+#pragma omp parallel for schedule(static, 1024)
+  for (std::size_t i = 0; i < without.size(); ++i) {
+    const InterfacePoint& point = points[without[i]];
+    VertexId& host = hosts[without[i]];
+    host = kNoVertex;
+    grid.near(point.centre(), [&](VertexId v) {
+      if ((vertices[v] - point.centre()).squared_norm() <= reach_mm * reach_mm && point.is_on(sets[v])) {
+        host = v;
+      }
+      return host != kNoVertex;
+    });
+  }
+  std::erase_if(without, [&](std::size_t p) { return hosts[p] != kNoVertex; });
   return without;
+}
+
+std::vector<std::size_t> points_without_host(const std::vector<InterfacePoint>& points,
+                                             const std::vector<Vec3>& vertices,
+                                             const std::vector<MaterialSet>& sets, double reach_mm) {
+  std::vector<VertexId> hosts;
+  return renew_hosts(points, vertices, sets, reach_mm, hosts);
 }
 
 }  // namespace cbc3d

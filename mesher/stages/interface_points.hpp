@@ -38,6 +38,11 @@ std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vecto
                                           const std::vector<std::array<TetId, 4>>& neighbours,
                                           std::size_t vertex_count);
 
+/// Renews the sets of the vertices that are `touched` (one flag a vertex, as long as `sets`). Parallel.
+void renew_vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
+                            const std::vector<std::array<TetId, 4>>& neighbours,
+                            const std::vector<std::uint8_t>& touched, std::vector<MaterialSet>& sets);
+
 /// True when every two of the materials meet, at least by a corner of voxels, within `reach_mm` of a place.
 bool all_meet_near(const LabelImage& image, const Vec3& local_mm, const MaterialSet& set, double reach_mm);
 
@@ -57,6 +62,13 @@ std::vector<InterfacePoint> interface_points(const LabelImage& image);
 std::vector<VertexId> nearest_hosts(const std::vector<InterfacePoint>& points,
                                     const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets,
                                     double reach_mm);
+
+/// Finds some host for every point whose entry of `hosts` is none or no longer one; kNoVertex where there is
+/// none within reach. Returns the indices of the points without, ascending. Parallel. `hosts` is empty or
+/// what an earlier call with the same points and reach left, of vertices that have not moved.
+std::vector<std::size_t> renew_hosts(const std::vector<InterfacePoint>& points,
+                                     const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets,
+                                     double reach_mm, std::vector<VertexId>& hosts);
 
 /// The indices of the points that have no host within reach, ascending. Parallel.
 std::vector<std::size_t> points_without_host(const std::vector<InterfacePoint>& points,

@@ -60,17 +60,24 @@ VertexId Lattice::vertex_at(const LatticePoint& point) {
   const VertexId vertex = table.find_or_insert(point, static_cast<VertexId>(points.size()));
   if (vertex == points.size()) {
     points.push_back(point);
+    split_below.push_back(0);
   }
   return vertex;
 }
 
 std::vector<Vec3> local_points(const Lattice& lattice) {
-  std::vector<Vec3> points(lattice.points.size());
+  std::vector<Vec3> points;
+  append_local_points(lattice, points);
+  return points;
+}
+
+void append_local_points(const Lattice& lattice, std::vector<Vec3>& points) {
+  const std::size_t known = points.size();
+  points.resize(lattice.points.size());
 #pragma omp parallel for schedule(static)
-  for (std::size_t v = 0; v < points.size(); ++v) {
+  for (std::size_t v = known; v < points.size(); ++v) {
     points[v] = lattice.frame.local(lattice.points[v]);
   }
-  return points;
 }
 
 }  // namespace cbc3d

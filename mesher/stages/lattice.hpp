@@ -72,6 +72,9 @@ struct RedTet {
 struct Lattice {
   LatticeFrame frame;
   std::vector<LatticePoint> points;
+  /// One more than the level of the finest split edge at each vertex, 0 where none is: spares look-ups in the
+  /// table.
+  std::vector<std::int8_t> split_below;
   VertexTable table;
   std::vector<RedTet> reds;
 
@@ -80,6 +83,8 @@ struct Lattice {
 
 /// The lattice's vertices in local mm.
 std::vector<Vec3> local_points(const Lattice& lattice);
+/// The same, where `points` has the first of them already.
+void append_local_points(const Lattice& lattice, std::vector<Vec3>& points);
 
 /// A conforming mesh of the lattice: its red leaves and the green pieces of those with split edges.
 struct LatticeTets {
@@ -88,6 +93,11 @@ struct LatticeTets {
   std::vector<std::uint8_t> green;             ///< 1 for a green piece
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }
+  void resize(std::size_t tets) {
+    nodes.resize(tets);
+    parent.resize(tets);
+    green.resize(tets);
+  }
 };
 
 }  // namespace cbc3d

@@ -21,14 +21,20 @@ LatticePoint midpoint(const LatticePoint& a, const LatticePoint& b) {
   return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
 }
 
-/// True when the segment a-b is split. A segment of one unit has no midpoint in the lattice.
-bool is_split(const Lattice& lattice, const LatticePoint& a, const LatticePoint& b) {
+/// The middle of the edge a-b of the level if it is split, else kNoVertex. A segment of one unit has no
+/// midpoint in the lattice.
+VertexId middle_of(const Lattice& lattice, VertexId a, VertexId b, int level) {
+  if (lattice.split_below[a] <= level || lattice.split_below[b] <= level) {
+    return kNoVertex;
+  }
+  const LatticePoint& p = lattice.points[a];
+  const LatticePoint& q = lattice.points[b];
   for (std::size_t d = 0; d < 3; ++d) {
-    if (((a[d] + b[d]) & 1) != 0) {
-      return false;
+    if (((p[d] + q[d]) & 1) != 0) {
+      return kNoVertex;
     }
   }
-  return lattice.table.find(midpoint(a, b)) != kNoVertex;
+  return lattice.table.find(midpoint(p, q));
 }
 
 /// How a red tet stands among its neighbours.
@@ -39,14 +45,16 @@ struct Pattern {
 
 Pattern pattern_of(const Lattice& lattice, const RedTet& red) {
   Pattern pattern;
-  std::array<LatticePoint, 6> mid;
+  const int finer = red.level + 1;
+  const auto is_split = [&](VertexId a, VertexId b) { return middle_of(lattice, a, b, finer) != kNoVertex; };
+  std::array<VertexId, 6> mid;
   for (unsigned e = 0; e < 6; ++e) {
-    const LatticePoint& a = lattice.points[red.nodes[kEdge[e][0]]];
-    const LatticePoint& b = lattice.points[red.nodes[kEdge[e][1]]];
-    if (is_split(lattice, a, b)) {
+    const VertexId a = red.nodes[kEdge[e][0]];
+    const VertexId b = red.nodes[kEdge[e][1]];
+    mid[e] = middle_of(lattice, a, b, red.level);
+    if (mid[e] != kNoVertex) {
       pattern.split |= 1U << e;
-      mid[e] = midpoint(a, b);
-      pattern.too_deep = pattern.too_deep || is_split(lattice, a, mid[e]) || is_split(lattice, mid[e], b);
+      pattern.too_deep = pattern.too_deep || is_split(a, mid[e]) || is_split(mid[e], b);
     }
   }
   for (const unsigned face : kFaceEdges) {
@@ -58,9 +66,8 @@ Pattern pattern_of(const Lattice& lattice, const RedTet& red) {
           edges[n++] = e;
         }
       }
-      pattern.too_deep = is_split(lattice, mid[edges[0]], mid[edges[1]]) ||
-                         is_split(lattice, mid[edges[1]], mid[edges[2]]) ||
-                         is_split(lattice, mid[edges[2]], mid[edges[0]]);
+      pattern.too_deep = is_split(mid[edges[0]], mid[edges[1]]) || is_split(mid[edges[1]], mid[edges[2]]) ||
+                         is_split(mid[edges[2]], mid[edges[0]]);
     }
   }
   return pattern;
@@ -130,8 +137,23 @@ class Closure {
         return true;
       }
     }
-    return std::any_of(kFaceEdges.begin(), kFaceEdges.end(),
-                       [&](unsigned face) { return (red.split & face) == face; });
+    return std::any_of(kFaceEdges.begin(), kFaceEdges.end(), [&](unsigned face) {
+      return (red.split & face) == face && is_touched_inside(red, face);
+    });
+  }
+
+  /// True when an inner segment of the face may have been split by the last sweep: each has its ends at two
+  /// of the three midpoints, so two of them are enough to look at.
+  [[nodiscard]] bool is_touched_inside(const RedTet& red, unsigned face) const {
+    for (unsigned edges = face & (face - 1); edges != 0; edges &= edges - 1) {
+      const auto e = static_cast<unsigned>(std::countr_zero(edges));
+      const LatticePoint& a = lattice_.points[red.nodes[kEdge[e][0]]];
+      const LatticePoint& b = lattice_.points[red.nodes[kEdge[e][1]]];
+      if (last_touched_[lattice_.table.find(midpoint(a, b))] + 1 == sweep_) {
+        return true;
+      }
+    }
+    return false;
   }
 
   bool sweep() {
@@ -156,12 +178,16 @@ class Closure {
     return changed;
   }
 
-  VertexId split_edge(VertexId a, VertexId b) {
+  VertexId split_edge(VertexId a, VertexId b, int level) {
     const std::size_t before = lattice_.points.size();
     const VertexId middle = lattice_.vertex_at(midpoint(lattice_.points[a], lattice_.points[b]));
     if (middle == before) {
       last_touched_.push_back(sweep_);
       last_touched_[a] = last_touched_[b] = sweep_;
+      for (const VertexId end : {a, b}) {
+        std::int8_t& below = lattice_.split_below[end];
+        below = std::max(below, static_cast<std::int8_t>(level + 1));
+      }
     }
     return middle;
   }
@@ -169,7 +195,7 @@ class Closure {
   void split_edges(const RedTet& red, unsigned edges) {
     for (unsigned e = 0; e < 6; ++e) {
       if ((edges >> e & 1U) != 0) {
-        split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]]);
+        split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]], red.level);
       }
     }
   }
@@ -180,7 +206,7 @@ class Closure {
     const RedTet red = lattice_.reds[index];
     std::array<VertexId, 6> m;
     for (unsigned e = 0; e < 6; ++e) {
-      m[e] = split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]]);
+      m[e] = split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]], red.level);
       last_touched_[m[e]] = sweep_;
     }
     const auto& [a, b, c, d] = red.nodes;
@@ -209,19 +235,13 @@ class Closure {
   std::size_t split_count_ = 0;
 };
 
-class Extractor {
+/// Writes the tets of one red tet.
+class PieceWriter {
  public:
-  explicit Extractor(const Lattice& lattice) : lattice_(lattice) {}
+  PieceWriter(const Lattice& lattice, LatticeTets& tets, std::size_t first)
+      : lattice_(lattice), tets_(tets), next_(first) {}
 
-  LatticeTets run() {
-    tets_.nodes.reserve(lattice_.reds.size());
-    tets_.parent.reserve(lattice_.reds.size());
-    tets_.green.reserve(lattice_.reds.size());
-    for (std::size_t t = 0; t < lattice_.reds.size(); ++t) {
-      emit(t, lattice_.reds[t].split);
-    }
-    return std::move(tets_);
-  }
+  void write(std::size_t t) { emit(t, lattice_.reds[t].split); }
 
  private:
   void emit(std::size_t t, unsigned split) {
@@ -293,13 +313,14 @@ class Extractor {
   }
 
   void add(std::size_t t, const std::array<VertexId, 4>& nodes, std::uint8_t green) {
-    tets_.nodes.push_back(nodes);
-    tets_.parent.push_back(static_cast<std::uint32_t>(t));
-    tets_.green.push_back(green);
+    tets_.nodes[next_] = nodes;
+    tets_.parent[next_] = static_cast<std::uint32_t>(t);
+    tets_.green[next_++] = green;
   }
 
   const Lattice& lattice_;
-  LatticeTets tets_;
+  LatticeTets& tets_;
+  std::size_t next_;
 };
 
 }  // namespace
@@ -308,8 +329,26 @@ std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& 
   return Closure(lattice).run(marked);
 }
 
+std::uint32_t piece_count(const RedTet& red) {
+  return red.split == 0 ? 1 : std::has_single_bit(red.split) ? 2 : 4;
+}
+
+void write_pieces(const Lattice& lattice, std::size_t red, std::size_t first, LatticeTets& tets) {
+  PieceWriter(lattice, tets, first).write(red);
+}
+
 LatticeTets extract_tets(const Lattice& lattice) {
-  return Extractor(lattice).run();
+  std::vector<std::size_t> first(lattice.reds.size() + 1, 0);
+  for (std::size_t r = 0; r < lattice.reds.size(); ++r) {
+    first[r + 1] = first[r] + piece_count(lattice.reds[r]);
+  }
+  LatticeTets tets;
+  tets.resize(first.back());
+#pragma omp parallel for schedule(static, 1024)
+  for (std::size_t r = 0; r < lattice.reds.size(); ++r) {
+    write_pieces(lattice, r, first[r], tets);
+  }
+  return tets;
 }
 
 }  // namespace cbc3d

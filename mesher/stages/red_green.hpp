@@ -17,7 +17,14 @@ namespace cbc3d {
 /// split.
 std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& marked);
 
-/// The conforming mesh of the lattice as it stands: red leaves and green pieces.
+/// How many tets of the conforming mesh a red tet is: itself, or 2 or 4 green pieces.
+std::uint32_t piece_count(const RedTet& red);
+
+/// Writes the tets of red tet `red` to their places in `tets`, from `first` on.
+void write_pieces(const Lattice& lattice, std::size_t red, std::size_t first, LatticeTets& tets);
+
+/// The conforming mesh of the lattice as it stands: red leaves and green pieces, in the order of the red
+/// tets.
 LatticeTets extract_tets(const Lattice& lattice);
 
 }  // namespace cbc3d

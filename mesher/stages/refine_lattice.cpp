@@ -10,6 +10,7 @@
 #include "mesher/improve/image_boundary.hpp"
 #include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/coverage.hpp"
+#include "mesher/stages/lattice_places.hpp"
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/select_candidate.hpp"
 #include "mesher/stages/size_rank.hpp"
@@ -25,7 +26,8 @@ class Refiner {
         image_(image),
         options_(options),
         raster_(image.frame, lattice.frame),
-        boundary_(image, {}) {
+        boundary_(image, {}),
+        follower_(lattice) {
     const std::vector<std::size_t> voxels = image.voxels_per_material();
     rank_ = rank_by_size(image, BackgroundRank::highest);
     for (std::size_t m = 0; m < voxels.size(); ++m) {
@@ -36,6 +38,7 @@ class Refiner {
     }
     if (options.max_distance_mm > 0 && options.each_interface) {
       interfaces_.emplace(image);
+      places_.emplace(image.frame, lattice.frame);
     } else if (options.max_distance_mm > 0) {
       coverage_.emplace(image);
     }
@@ -43,11 +46,9 @@ class Refiner {
 
   RefineResult run(const std::function<void(int, std::size_t)>& on_round) {
     for (result_.rounds = 1;; ++result_.rounds) {
+      follow_lattice();
       label_by_centroid();
-      select();
-      find_uncovered_voxels();
-      measure_fidelity();
-      mark_strays();
+      judge();
       mark_oversized();
       on_round(result_.rounds, result_.mesh.tets.size());
       if (mark() == 0 || result_.rounds == options_.max_rounds || exceeds_budget()) {
@@ -60,42 +61,104 @@ class Refiner {
   }
 
  private:
+  /// Brings the mesh up to the lattice, and what is known of its tets to their new numbers.
+  void follow_lattice() {
+    CandidateMesh& mesh = result_.mesh;
+    const std::vector<TetId> number = follower_.renumber();
+    forget_removed(number);
+    follower_.rebuild(mesh, number);
+    judged_ = renumbered(judged_, number, mesh.tets.size(), kNotJudged);
+    centroid_material_ = renumbered(centroid_material_, number, mesh.tets.size(), kBackground);
+    append_local_points(lattice_, points_);
+    touched_.resize(points_.size(), 1);
+    mesh.unsure.resize(points_.size(), 1);
+    stray_verdict_.resize(points_.size(), 0);
+  }
+
+  /// Takes the tets that are gone out of the account.
+  void forget_removed(const std::vector<TetId>& number) {
+    touched_.assign(points_.size(), 0);
+    tally(number.size(), [&](std::size_t t, Counts& counts) {
+      if (number[t] == kNoTet) {
+        touch_nodes(t);
+        recount(t, judged_[t], kNotJudged, counts);
+      }
+    });
+  }
+
   /// The material of a tet is that of the image at its centroid: the one whose signed distance is positive
   /// there.
   void label_by_centroid() {
     CandidateMesh& mesh = result_.mesh;
-    mesh.tets = extract_tets(lattice_);
-    points_ = local_points(lattice_);
-    mesh.materials.resize(mesh.tets.size());
-    centroid_material_.resize(mesh.tets.size());
-#pragma omp parallel for schedule(static, 1024)
+#pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      Vec3 centroid;
-      for (const VertexId v : mesh.tets.nodes[t]) {
-        centroid += 0.25 * points_[v];
+      if (judged_[t] == kNotJudged) {
+        Vec3 centroid;
+        for (const VertexId v : mesh.tets.nodes[t]) {
+          centroid += 0.25 * points_[v];
+        }
+        centroid_material_[t] =
+            options_.smooth_labels ? boundary_.material_at(centroid) : image_.at_local(centroid);
       }
-      centroid_material_[t] =
-          options_.smooth_labels ? boundary_.material_at(centroid) : image_.at_local(centroid);
     }
     mesh.materials = centroid_material_;
-  }
-
-  void select() {
-    CandidateMesh& mesh = result_.mesh;
-    mesh.neighbours = tet_neighbours(mesh.tets.nodes, points_.size());
     if (options_.one_face_rule) {
       select_candidate(mesh.neighbours, rank_, mesh.materials);
     }
   }
 
+  /// True while what is known of the tet is of another material than it has now, or nothing.
+  [[nodiscard]] bool is_changed(std::size_t t) const {
+    return judged_[t] != result_.mesh.materials[t];
+  }
+
+  /// Judges the mesh by its materials and marks what is to be split. What depends on nothing but tets that
+  /// are as they were at the last judgement is not computed again: of those, none is marked that can be
+  /// split, for they would have been split.
+  void judge() {
+    marked_.assign(lattice_.reds.size(), 0);
+    touch_changed();
+    find_uncovered_voxels();
+    measure_fidelity();
+    mark_uncovered_elsewhere();
+    mark_strays();
+    const std::vector<MaterialId>& materials = result_.mesh.materials;
+    judged_.assign(materials.begin(), materials.end());
+    std::fill(touched_.begin(), touched_.end(), 0);
+  }
+
+  void touch_changed() {
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      if (is_changed(t)) {
+        touch_nodes(t);
+      }
+    }
+    std::vector<std::uint8_t>& unsure = result_.mesh.unsure;
+    for (std::size_t v = 0; v < touched_.size(); ++v) {
+      unsure[v] |= touched_[v];
+    }
+  }
+
+  void touch_nodes(std::size_t t) {
+    for (const VertexId v : result_.mesh.tets.nodes[t]) {
+      set_flag(touched_[v]);
+    }
+  }
+
+  /// Several threads may set the same flag; they write the same value.
+  static void set_flag(std::uint8_t& flag) {
+    std::atomic_ref<std::uint8_t>(flag).store(1, std::memory_order_relaxed);
+  }
+
   void find_uncovered_voxels() {
+    const CandidateMesh& mesh = result_.mesh;
     if (interfaces_) {
-      const CandidateMesh& mesh = result_.mesh;
-      sets_ = vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, points_.size());
+      sets_.resize(points_.size());
+      renew_vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, touched_, sets_);
       interfaces_->update(sets_, points_, options_.max_distance_mm);
     }
     if (coverage_) {
-      const CandidateMesh& mesh = result_.mesh;
       coverage_->update(surface_vertices(mesh.tets.nodes, mesh.neighbours, mesh.materials), points_,
                         options_.max_distance_mm);
     }
@@ -107,50 +170,106 @@ class Refiner {
             lattice_.points[nodes[3]]};
   }
 
-  /// |S1| and |S1 n S2| of every material by exact voxel-in-tet counting; on the way, the red tets that hold
-  /// an uncovered boundary voxel.
-  void measure_fidelity() {
-    const CandidateMesh& mesh = result_.mesh;
-    marked_.assign(lattice_.reds.size(), 0);
-    for (MaterialFidelity& f : result_.fidelity) {
-      f.mesh_voxels = f.common_voxels = 0;
-    }
+  /// Changes of |S1| and |S1 n S2|, one entry a material.
+  struct Counts {
+    std::vector<std::ptrdiff_t> inside, common;
+  };
+
+  /// Adds up what visit(t, counts) counts for t = 0 ... tets - 1, in parallel.
+  template <typename Visit>
+  void tally(std::size_t tets, const Visit& visit) {
+    const std::size_t materials = result_.fidelity.size();
 #pragma omp parallel
     {
-      std::vector<std::size_t> inside(result_.fidelity.size(), 0);
-      std::vector<std::size_t> common(result_.fidelity.size(), 0);
+      Counts counts{std::vector<std::ptrdiff_t>(materials, 0), std::vector<std::ptrdiff_t>(materials, 0)};
 #pragma omp for schedule(dynamic, 512) nowait
-      for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        count_tet(t, inside[mesh.materials[t]], common[mesh.materials[t]]);
+      for (std::size_t t = 0; t < tets; ++t) {
+        visit(t, counts);
       }
-#pragma omp critical(cbc3d_measure_fidelity)
-      for (std::size_t m = 0; m < inside.size(); ++m) {
-        result_.fidelity[m].mesh_voxels += inside[m];
-        result_.fidelity[m].common_voxels += common[m];
+#pragma omp critical(cbc3d_tally)
+      for (std::size_t m = 0; m < materials; ++m) {
+        result_.fidelity[m].mesh_voxels += static_cast<std::size_t>(counts.inside[m]);  // modulo 2^64
+        result_.fidelity[m].common_voxels += static_cast<std::size_t>(counts.common[m]);
       }
     }
   }
 
-  void count_tet(std::size_t t, std::size_t& inside, std::size_t& common) {
-    const MaterialId own = result_.mesh.materials[t];
+  /// |S1| and |S1 n S2| of every material by exact voxel-in-tet counting of the tets that have changed; on
+  /// the way, which of them hold an uncovered boundary voxel.
+  void measure_fidelity() {
+    tally(judged_.size(), [&](std::size_t t, Counts& counts) {
+      if (is_changed(t) && recount(t, judged_[t], result_.mesh.materials[t], counts)) {
+        mark_tet(t);
+      }
+    });
+  }
+
+  /// Moves the voxels in a tet from one material's account to another's; kNotJudged is none. True when one of
+  /// them is uncovered.
+  bool recount(std::size_t t, std::int32_t before, std::int32_t now, Counts& counts) {
+    std::ptrdiff_t inside = 0;
+    std::array<std::ptrdiff_t, 2> common = {0, 0};
     bool uncovered = false;
     raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-      inside += static_cast<std::size_t>(i_end - i_begin);
-      common += image_.voxels.visit([&](const auto* voxels) {
+      inside += i_end - i_begin;
+      image_.voxels.visit([&](const auto* voxels) {
         const auto* row = voxels + image_.frame.offset(0, j, k);
-        return static_cast<std::size_t>(std::count(row + i_begin, row + i_end, own));
+        common[0] += before == kNotJudged ? 0 : std::count(row + i_begin, row + i_end, before);
+        common[1] += now == kNotJudged ? 0 : std::count(row + i_begin, row + i_end, now);
       });
-      uncovered = uncovered || (coverage_ && coverage_->wants_refinement(j, k, i_begin, i_end)) ||
-                  (interfaces_ && interfaces_->wants_refinement(j, k, i_begin, i_end));
+      uncovered = uncovered || wants_refinement(j, k, i_begin, i_end);
     });
+    if (before != kNotJudged) {
+      counts.inside[static_cast<std::size_t>(before)] -= inside;
+      counts.common[static_cast<std::size_t>(before)] -= common[0];
+    }
+    if (now != kNotJudged) {
+      counts.inside[static_cast<std::size_t>(now)] += inside;
+      counts.common[static_cast<std::size_t>(now)] += common[1];
+    }
+    return uncovered;
+  }
+
+  [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const {
+    return (coverage_ && coverage_->wants_refinement(j, k, i_begin, i_end)) ||
+           (interfaces_ && interfaces_->wants_refinement(j, k, i_begin, i_end));
+  }
+
+  /// Marks tets with an uncovered voxel among those that have not changed: the interface that covered it has.
+  void mark_uncovered_elsewhere() {
+    if ((coverage_ ? coverage_->uncovered_count() : 0) + (interfaces_ ? interfaces_->uncovered_count() : 0) ==
+        0) {
+      return;
+    }
+    if (interfaces_) {
+      places_->clear();
+      interfaces_->for_each_wanted([&](const Vec3& centre) { places_->add(centre); });
+    }
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (std::size_t r = 0; r < lattice_.reds.size(); ++r) {
+      const RedTet& red = lattice_.reds[r];
+      if (marked_[r] == 0 && (!interfaces_ || places_->may_hold(lattice_.points[red.nodes[0]], red.level))) {
+        mark_if_uncovered(r);
+      }
+    }
+  }
+
+  void mark_if_uncovered(std::size_t r) {
+    bool uncovered = false;
+    for (TetId t = follower_.first(r); t < follower_.first(r + 1) && !uncovered; ++t) {
+      if (!is_changed(t)) {
+        raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
+          uncovered = uncovered || wants_refinement(j, k, i_begin, i_end);
+        });
+      }
+    }
     if (uncovered) {
-      mark_tet(t);
+      marked_[r] = 1;
     }
   }
 
   void mark_tet(std::size_t t) {
-    // Pieces of one red tet may be marked by several threads; they write the same value.
-    std::atomic_ref<std::uint8_t>(marked_[result_.mesh.tets.parent[t]]).store(1, std::memory_order_relaxed);
+    set_flag(marked_[result_.mesh.tets.parent[t]]);
   }
 
   [[nodiscard]] int level_of(std::size_t t) const {
@@ -188,11 +307,9 @@ class Refiner {
   /// What is to be kept is the mesh after the repair of its topology, so that is judged as well: where the
   /// repair takes a boundary voxel's interface away, a finer lattice keeps it.
   void mark_what_repair_loses() {
-    check_topology(result_.mesh, points_, image_,
-                   {true, options_.one_face_rule, options_.repair_image_passes, 0.0});
-    find_uncovered_voxels();
-    measure_fidelity();
-    mark_strays();
+    repair_topology(result_.mesh, points_, image_,
+                    {true, options_.one_face_rule, options_.repair_image_passes, 0.0});
+    judge();
   }
 
   /// Noise asks for the finest lattice everywhere; what a real image needs is 6 to 15 tets a point, and more
@@ -231,47 +348,66 @@ class Refiner {
       return;
     }
     mark_false_contacts();
-    const CandidateMesh& mesh = result_.mesh;
 #pragma omp parallel for schedule(dynamic, 1024)
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      for (std::size_t n = 0; n < 4; ++n) {
-        const TetId across = mesh.neighbours[t][n];
-        const MaterialId other = across == kNoTet ? kBackground : mesh.materials[across];
-        if (mesh.materials[t] > other && strays(t, n, other)) {
-          mark_tet(t);
-          if (across != kNoTet) {
-            mark_tet(across);
-          }
-        }
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      for (std::size_t n = 0; n < 4 && is_changed(t); ++n) {
+        mark_if_stray(t, n);
       }
     }
+  }
+
+  void mark_if_stray(std::size_t t, std::size_t n) {
+    const CandidateMesh& mesh = result_.mesh;
+    const TetId across = mesh.neighbours[t][n];
+    const MaterialId own = mesh.materials[t];
+    const MaterialId other = across == kNoTet ? kBackground : mesh.materials[across];
+    if (own == other || (own < other && is_changed(across))) {  // the latter is the other tet's turn
+      return;
+    }
+    const bool strays = std::any_of(kTetFace[n].begin(), kTetFace[n].end(), [&](std::uint8_t corner) {
+      return is_stray(mesh.tets.nodes[t][corner], std::max(own, other), std::min(own, other));
+    });
+    if (strays) {
+      mark_tet(t);
+      if (across != kNoTet) {
+        mark_tet(across);
+      }
+    }
+  }
+
+  /// The last verdict on a vertex is kept with the materials it is about (a > b, so 0 is none): the faces
+  /// round the vertex ask the same again. Whatever thread writes it, it is a function of place and materials.
+  bool is_stray(VertexId v, MaterialId a, MaterialId b) {
+    const std::uint64_t question = (std::uint64_t{a} << 16U | b) << 1U;
+    std::atomic_ref<std::uint64_t> kept(stray_verdict_[v]);
+    const std::uint64_t known = kept.load(std::memory_order_relaxed);
+    if ((known & ~std::uint64_t{1}) == question) {
+      return (known & 1U) != 0;
+    }
+    const bool stray = boundary_.sample(points_[v], a, b).deviation_mm > options_.max_stray_mm;
+    kept.store(question | (stray ? 1U : 0U), std::memory_order_relaxed);
+    return stray;
   }
 
   /// Materials that meet at a vertex of the mesh and nowhere near it in the image: the lattice bridges a gap.
   void mark_false_contacts() {
     std::vector<std::uint8_t> bad(points_.size(), 0);
-#pragma omp parallel for schedule(dynamic, 1024)
+    bool any = false;
+#pragma omp parallel for schedule(dynamic, 1024) reduction(|| : any)
     for (std::size_t v = 0; v < sets_.size(); ++v) {
-      bad[v] = sets_[v].size > 2 && !all_meet_near(image_, points_[v], sets_[v], options_.contact_reach_mm)
-                   ? 1
-                   : 0;
+      if (touched_[v] != 0 && sets_[v].size > 2 &&
+          !all_meet_near(image_, points_[v], sets_[v], options_.contact_reach_mm)) {
+        bad[v] = 1;
+        any = true;
+      }
     }
     const TetNodes& nodes = result_.mesh.tets.nodes;
-#pragma omp parallel for schedule(static, 1024)
-    for (std::size_t t = 0; t < nodes.size(); ++t) {
-      if (std::any_of(nodes[t].begin(), nodes[t].end(),
-                      [&](VertexId v) { return !sets_.empty() && bad[v] != 0; })) {
+#pragma omp parallel for schedule(static, 1024) if (any)
+    for (std::size_t t = 0; t < (any ? nodes.size() : 0); ++t) {
+      if (std::any_of(nodes[t].begin(), nodes[t].end(), [&](VertexId v) { return bad[v] != 0; })) {
         mark_tet(t);
       }
     }
-  }
-
-  [[nodiscard]] bool strays(std::size_t t, std::size_t n, MaterialId other) const {
-    const CandidateMesh& mesh = result_.mesh;
-    return std::any_of(kTetFace[n].begin(), kTetFace[n].end(), [&](std::uint8_t corner) {
-      const Vec3& at = points_[mesh.tets.nodes[t][corner]];
-      return boundary_.sample(at, mesh.materials[t], other).deviation_mm > options_.max_stray_mm;
-    });
   }
 
   /// The paper: when the fidelity is settled, the tets around non-manifold vertices and edges are split in
@@ -379,7 +515,13 @@ class Refiner {
   ImageBoundary boundary_;
   std::optional<BoundaryCoverage> coverage_;
   std::optional<InterfaceCoverage> interfaces_;
-  std::vector<MaterialSet> sets_;  // of interfaces_' last update
+  std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ wants
+  std::vector<MaterialSet> sets_;        // of interfaces_' last update
+  LatticeFollower follower_;
+  static constexpr std::int32_t kNotJudged = -1;
+  std::vector<std::int32_t> judged_;          // the material each tet had when it was last judged
+  std::vector<std::uint8_t> touched_;         // vertices of tets that changed since
+  std::vector<std::uint64_t> stray_verdict_;  // of vertices, see is_stray
   std::vector<std::uint32_t> rank_;
   std::vector<Vec3> points_;
   std::vector<MaterialId> centroid_material_;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
+#include "mesher/stages/candidate_mesh.hpp"
 #include "mesher/stages/lattice.hpp"
-#include "mesher/stages/tet_adjacency.hpp"
 
 namespace cbc3d {
 
@@ -54,13 +54,6 @@ struct MaterialFidelity {
   [[nodiscard]] double ratio(std::size_t of) const {
     return static_cast<double>(common_voxels) / static_cast<double>(of);
   }
-};
-
-/// The conforming lattice with a material for every tet (background ones included) and who neighbours whom.
-struct CandidateMesh {
-  LatticeTets tets;
-  std::vector<MaterialId> materials;
-  std::vector<std::array<TetId, 4>> neighbours;
 };
 
 struct RefineResult {

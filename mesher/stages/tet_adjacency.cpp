@@ -18,87 +18,102 @@ Face sorted_face(const std::array<VertexId, 4>& tet, unsigned opposite) {
   return face;
 }
 
+using Neighbours = std::vector<std::array<TetId, 4>>;
+
 struct FaceEntry {
   VertexId second, third;      // of the sorted face; the first is the bucket
   std::uint32_t tet_and_node;  // 4 * tet + node opposite to the face
+
+  [[nodiscard]] std::uint64_t others() const { return std::uint64_t{second} << 32U | third; }
 };
 
-/// Faces bucketed by their smallest vertex: a counting sort, in the order of the tets.
+/// Faces of unknown neighbours, bucketed by their smallest vertex: a counting sort, in the order of the tets.
 struct FaceBuckets {
   std::vector<std::uint32_t> first;
   std::vector<FaceEntry> faces;
 };
 
-/// Calls f(face's smallest vertex, tet, node) for the faces whose smallest vertex is in [begin, end), in
-/// order.
+/// Runs f(begin, end) for ranges that the vertices are cut in, one a thread. Each thread fills the rows of
+/// its vertices and passes over all tets for it: reading them again costs less than the scattered writes, of
+/// which every thread has its share.
 template <typename F>
-void for_each_face(const TetNodes& tets, VertexId begin, VertexId end, const F& f) {
+void for_vertex_ranges(std::size_t vertex_count, const F& f) {
+  const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    f(static_cast<VertexId>(part * vertex_count / parts),
+      static_cast<VertexId>((part + 1) * vertex_count / parts));
+  }
+}
+
+/// Calls f(face's smallest vertex, tet, node) for the faces of unknown neighbours whose smallest vertex is in
+/// [begin, end), in order.
+template <typename F>
+void for_each_face(const TetNodes& tets, const Neighbours& neighbours, VertexId begin, VertexId end,
+                   const F& f) {
   for (std::size_t t = 0; t < tets.size(); ++t) {
     const auto& tet = tets[t];
     for (unsigned n = 0; n < 4; ++n) {
-      const VertexId least = std::min({tet[kTetFace[n][0]], tet[kTetFace[n][1]], tet[kTetFace[n][2]]});
-      if (least >= begin && least < end) {
-        f(least, t, n);
+      if (neighbours[t][n] == kUnknownTet) {
+        const VertexId least = std::min({tet[kTetFace[n][0]], tet[kTetFace[n][1]], tet[kTetFace[n][2]]});
+        if (least >= begin && least < end) {
+          f(least, t, n);
+        }
       }
     }
   }
 }
 
-/// Each thread fills the buckets of a range of vertices and passes over all tets for it: reading them again
-/// costs less than the scattered writes, of which every thread has its share.
-FaceBuckets bucket_faces(const TetNodes& tets, std::size_t vertex_count) {
+/// Counts in first[i + 1] become the places where the rows begin.
+void sum_up(std::vector<std::uint32_t>& first) {
+  for (std::size_t i = 1; i < first.size(); ++i) {
+    first[i] += first[i - 1];
+  }
+}
+
+FaceBuckets bucket_faces(const TetNodes& tets, const Neighbours& neighbours, std::size_t vertex_count) {
   FaceBuckets buckets;
   buckets.first.assign(vertex_count + 1, 0);
-  buckets.faces.resize(4 * tets.size());
-  const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
-  const auto begin_of = [&](std::size_t part) { return static_cast<VertexId>(part * vertex_count / parts); };
-#pragma omp parallel for schedule(static, 1)
-  for (std::size_t part = 0; part < parts; ++part) {
-    for_each_face(tets, begin_of(part), begin_of(part + 1),
+  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
+    for_each_face(tets, neighbours, begin, end,
                   [&](VertexId least, std::size_t, unsigned) { ++buckets.first[least + 1]; });
-  }
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    buckets.first[v + 1] += buckets.first[v];
-  }
+  });
+  sum_up(buckets.first);
+  buckets.faces.resize(buckets.first.back());
   std::vector<std::uint32_t> next(buckets.first.begin(), buckets.first.end() - 1);
-#pragma omp parallel for schedule(static, 1)
-  for (std::size_t part = 0; part < parts; ++part) {
-    for_each_face(tets, begin_of(part), begin_of(part + 1), [&](VertexId least, std::size_t t, unsigned n) {
+  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
+    for_each_face(tets, neighbours, begin, end, [&](VertexId least, std::size_t t, unsigned n) {
       const Face face = sorted_face(tets[t], n);
       buckets.faces[next[least]++] = {face[1], face[2], static_cast<std::uint32_t>(4 * t + n)};
     });
-  }
+  });
   return buckets;
 }
 
-/// Pairs equal faces of one bucket. Buckets are small (a few dozen), so each is sorted on its own.
-bool match_bucket(FaceEntry* begin, FaceEntry* end, std::vector<std::array<TetId, 4>>& neighbours) {
-  std::sort(begin, end, [](const FaceEntry& a, const FaceEntry& b) {
-    return a.second != b.second ? a.second < b.second
-           : a.third != b.third ? a.third < b.third
-                                : a.tet_and_node < b.tet_and_node;
-  });
-  const auto same = [](const FaceEntry& a, const FaceEntry& b) {
-    return a.second == b.second && a.third == b.third;
-  };
-  for (FaceEntry* face = begin; face + 1 < end; ++face) {
-    if (same(face[0], face[1])) {
-      if (face + 2 < end && same(face[1], face[2])) {
-        return false;
-      }
-      neighbours[face[0].tet_and_node / 4][face[0].tet_and_node % 4] = face[1].tet_and_node / 4;
-      neighbours[face[1].tet_and_node / 4][face[1].tet_and_node % 4] = face[0].tet_and_node / 4;
-      ++face;
+/// Pairs equal faces of one bucket. Buckets are small (a few dozen), so each is sorted on its own. What has
+/// no other side is on the outside.
+bool match_bucket(FaceEntry* begin, FaceEntry* end, Neighbours& neighbours) {
+  std::sort(begin, end, [](const FaceEntry& a, const FaceEntry& b) { return a.others() < b.others(); });
+  for (FaceEntry* face = begin; face < end; ++face) {
+    TetId& across = neighbours[face->tet_and_node / 4][face->tet_and_node % 4];
+    if (face + 1 == end || face[1].others() != face[0].others()) {
+      across = kNoTet;
+      continue;
     }
+    if (face + 2 < end && face[2].others() == face[0].others()) {
+      return false;
+    }
+    across = face[1].tet_and_node / 4;
+    neighbours[face[1].tet_and_node / 4][face[1].tet_and_node % 4] = face[0].tet_and_node / 4;
+    ++face;
   }
   return true;
 }
 
 }  // namespace
 
-std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size_t vertex_count) {
-  FaceBuckets buckets = bucket_faces(tets, vertex_count);
-  std::vector<std::array<TetId, 4>> neighbours(tets.size(), {kNoTet, kNoTet, kNoTet, kNoTet});
+void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count, Neighbours& neighbours) {
+  FaceBuckets buckets = bucket_faces(tets, neighbours, vertex_count);
   std::atomic<bool> conforming = true;
 #pragma omp parallel for schedule(static, 1024)
   for (std::size_t v = 0; v < vertex_count; ++v) {
@@ -110,27 +125,38 @@ std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size
   if (!conforming) {
     throw JobError("the tet mesh is not conforming: a face belongs to more than two tets");
   }
+}
+
+std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size_t vertex_count) {
+  Neighbours neighbours(tets.size(), {kUnknownTet, kUnknownTet, kUnknownTet, kUnknownTet});
+  find_unknown_neighbours(tets, vertex_count, neighbours);
   return neighbours;
 }
 
 VertexTets tets_of_vertices(const TetNodes& tets, std::size_t vertex_count) {
   VertexTets around;
   around.first.assign(vertex_count + 1, 0);
-  for (const auto& tet : tets) {
-    for (const VertexId v : tet) {
-      ++around.first[v + 1];
+  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
+    for (const auto& tet : tets) {
+      for (const VertexId v : tet) {
+        if (v >= begin && v < end) {
+          ++around.first[v + 1];
+        }
+      }
     }
-  }
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    around.first[v + 1] += around.first[v];
-  }
+  });
+  sum_up(around.first);
   around.tets.resize(4 * tets.size());
   std::vector<std::uint32_t> next(around.first.begin(), around.first.end() - 1);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    for (const VertexId v : tets[t]) {
-      around.tets[next[v]++] = static_cast<TetId>(t);
+  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+      for (const VertexId v : tets[t]) {
+        if (v >= begin && v < end) {
+          around.tets[next[v]++] = static_cast<TetId>(t);
+        }
+      }
     }
-  }
+  });
   return around;
 }
 

@@ -11,6 +11,7 @@ namespace cbc3d {
 
 using TetId = std::uint32_t;
 inline constexpr TetId kNoTet = 0xFFFFFFFFU;
+inline constexpr TetId kUnknownTet = 0xFFFFFFFEU;  ///< find_unknown_neighbours is to find it
 
 using TetNodes = std::vector<std::array<VertexId, 4>>;
 
@@ -19,11 +20,16 @@ using TetNodes = std::vector<std::array<VertexId, 4>>;
 /// conforming).
 std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size_t vertex_count);
 
+/// The same for the faces that `neighbours` has as kUnknownTet, from both their sides; the others stay.
+void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count,
+                             std::vector<std::array<TetId, 4>>& neighbours);
+
 /// The nodes of the face opposite to node n, counter-clockwise seen from outside a positive tet.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetFace = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// Tets around each vertex in compressed rows: tets[first[v]] ... tets[first[v + 1] - 1], ascending.
+/// Parallel.
 struct VertexTets {
   std::vector<std::uint32_t> first;
   std::vector<TetId> tets;

@@ -9,6 +9,9 @@ namespace {
 
 /// Quotient rounded towards plus infinity; divisor > 0.
 std::int64_t ceil_div(std::int64_t dividend, std::int64_t divisor) {
+  if (divisor == 1) {  // most faces of a lattice
+    return dividend;
+  }
   const std::int64_t quotient = dividend / divisor;
   return quotient + static_cast<std::int64_t>(dividend % divisor > 0);
 }

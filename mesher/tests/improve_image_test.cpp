@@ -280,6 +280,23 @@ double nearest_by_brute_force(const InterfacePoint& p, const Vertices& vertices,
   return nearest;
 }
 
+TEST(InterfacePoints, HostsThatAreKeptHideNothing) {
+  const LabelImage image = random_image({8, 7, 6}, kAnisotropic, 2, 9);
+  const auto points = interface_points(image);
+  Vertices vertices = draw_vertices(image, 150, 9);
+  std::vector<VertexId> hosts;
+  std::size_t changes = 0;
+  auto before = renew_hosts(points, vertices.points, vertices.sets, 1.5, hosts);
+  for (std::size_t step = 0; step < 20; ++step) {
+    vertices.sets[7 * step] = vertices.sets[(31 * step + 5) % vertices.sets.size()];
+    const auto without = renew_hosts(points, vertices.points, vertices.sets, 1.5, hosts);
+    EXPECT_EQ(without, points_without_host(points, vertices.points, vertices.sets, 1.5));
+    changes += without != before ? 1 : 0;
+    before = without;
+  }
+  EXPECT_GT(changes, 0U);
+}
+
 TEST(InterfacePoints, HostsAreTheNearestVerticesOfTheirInterface) {
   for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
     const LabelImage image = random_image({8, 7, 6}, kAnisotropic, 2, seed);

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "mesher/stages/bcc_lattice.hpp"
+#include "mesher/stages/candidate_mesh.hpp"
+#include "mesher/stages/lattice_places.hpp"
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/tet_adjacency.hpp"
 #include "mesher/stages/voxel_raster.hpp"
@@ -156,6 +158,63 @@ TEST(RedGreen, RandomRefinementStaysConformingWithinTheTemplatesAngles) {
     // the hull, whose area refinement does not change; a T-junction would add inner ones.
     EXPECT_NEAR(hull_area(lattice, tets), hull_before, 1e-9 * hull_before);
     EXPECT_GT(std::accumulate(tets.green.begin(), tets.green.end(), 0), 100);
+  }
+}
+
+TEST(LatticeFollower, AMeshThatFollowsIsTheMeshMadeAnew) {
+  const LabelImage image = testing::ball_image(24, 1, 9);
+  Lattice lattice = lattice_of(image, 6, 0.3);
+  LatticeFollower follower(lattice);
+  CandidateMesh mesh;
+  std::vector<std::array<VertexId, 4>> nodes;  // of the tets, carried along
+  for (const std::uint32_t one_in : {20U, 500U, 5000U, 1000000000U}) {
+    const std::vector<TetId> number = follower.renumber();
+    follower.rebuild(mesh, number);
+    const LatticeTets tets = extract_tets(lattice);
+    EXPECT_EQ(mesh.tets.nodes, tets.nodes);
+    EXPECT_EQ(mesh.tets.parent, tets.parent);
+    EXPECT_EQ(mesh.tets.green, tets.green);
+    EXPECT_EQ(mesh.neighbours, tet_neighbours(tets.nodes, lattice.points.size()));
+    nodes = renumbered(nodes, number, tets.size(), {0, 0, 0, 0});
+    const auto kept =
+        number.size() - static_cast<std::size_t>(std::count(number.begin(), number.end(), kNoTet));
+    std::size_t alike = 0;
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+      EXPECT_LE(follower.first(tets.parent[t]), t);
+      EXPECT_LT(t, follower.first(tets.parent[t] + 1));
+      alike += nodes[t] == tets.nodes[t] ? 1 : 0;
+    }
+    EXPECT_EQ(alike, kept);
+    EXPECT_TRUE(one_in < 5000U || kept > tets.size() / 2) << kept << " of " << tets.size();
+    nodes = tets.nodes;
+    refine_at_random(lattice, 1, one_in, one_in);
+  }
+}
+
+TEST(LatticePlaces, NoTetThatHoldsAPlaceIsPassedOver) {
+  const LabelImage image = testing::make_image({40, 30, 20}, {0.9, 1.1, 1.3}, 1, [](const Vec3& p) {
+    return (p - Vec3{18, 16, 13}).norm() < 11 ? 1 : 0;
+  });
+  Lattice lattice = lattice_of(image, 7.3, 0.5);
+  refine_at_random(lattice, 3, 3, 8);
+  const VoxelRaster raster(image.frame, lattice.frame);
+  LatticePlaces places(image.frame, lattice.frame);
+  for (const std::size_t voxel : {std::size_t{0}, std::size_t{12345}, image.voxels.size() - 1}) {
+    const Index3 at = image.frame.index_of(voxel);
+    places.clear();
+    places.add(image.frame.local_centre(at[0], at[1], at[2]));
+    std::size_t passed_over = 0;
+    for (const RedTet& red : lattice.reds) {
+      const bool may_hold = places.may_hold(lattice.points[red.nodes[0]], red.level);
+      passed_over += may_hold ? 0 : 1;
+      raster.for_each_row({lattice.points[red.nodes[0]], lattice.points[red.nodes[1]],
+                           lattice.points[red.nodes[2]], lattice.points[red.nodes[3]]},
+                          [&](int j, int k, int begin, int end) {
+                            const bool holds = j == at[1] && k == at[2] && begin <= at[0] && at[0] < end;
+                            EXPECT_TRUE(may_hold || !holds);
+                          });
+    }
+    EXPECT_GT(passed_over, lattice.reds.size() / 2);
   }
 }
 

@@ -1,0 +1,73 @@
+// The candidate mesh, and how it follows a lattice that is being refined.
+//
+// A late round of the refinement splits few tets out of a million. What the others have (nodes, neighbours,
+// and whatever the caller has computed for them) stays, under new numbers: tets are numbered in the order of
+// their red tets, so a red tet that was split moves all that come after it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/core/label_voxels.hpp"
+#include "mesher/stages/lattice.hpp"
+#include "mesher/stages/tet_adjacency.hpp"
+
+namespace cbc3d {
+
+/// The conforming lattice with a material for every tet (background ones included) and who neighbours whom.
+struct CandidateMesh {
+  LatticeTets tets;
+  std::vector<MaterialId> materials;
+  std::vector<std::array<TetId, 4>> neighbours;
+  /// 0 for a vertex at which every label's surface is known to be a manifold; empty: nothing is known.
+  std::vector<std::uint8_t> unsure = {};
+};
+
+/// Where the tets of each red tet are, and what becomes of them when the lattice changes.
+class LatticeFollower {
+ public:
+  /// `lattice` must outlive this.
+  explicit LatticeFollower(const Lattice& lattice) : lattice_(lattice) {}
+
+  /// Compares the lattice with what it was at the last call; returns the new number of every tet there was,
+  /// kNoTet for those that are gone because their red tet was split or its green pieces are others.
+  std::vector<TetId> renumber();
+
+  /// Brings nodes and neighbours up to date, for what renumber() returned. Parallel. What is kept is not
+  /// computed again. The materials are the caller's.
+  void rebuild(CandidateMesh& mesh, const std::vector<TetId>& number) const;
+
+  /// The tets of red tet r are first(r) ... first(r + 1) - 1.
+  [[nodiscard]] TetId first(std::size_t r) const { return first_[r]; }
+  [[nodiscard]] std::size_t tet_count() const { return first_.empty() ? 0 : first_.back(); }
+
+ private:
+  /// What tells a red tet from the one that had its place before: splitting it makes it one level deeper.
+  struct Shape {
+    std::int8_t level = -1;
+    std::uint8_t split = 0;
+    bool operator==(const Shape&) const = default;
+  };
+
+  const Lattice& lattice_;
+  std::vector<TetId> first_;
+  std::vector<Shape> shapes_;
+  std::vector<std::uint8_t> is_new_;  // a red tet whose tets are to be written
+};
+
+/// Values of the tets under their new numbers; `otherwise` for the tets that are new.
+template <typename T>
+std::vector<T> renumbered(const std::vector<T>& values, const std::vector<TetId>& number, std::size_t count,
+                          T otherwise) {
+  std::vector<T> result(count, otherwise);
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    if (number[t] != kNoTet) {
+      result[number[t]] = values[t];
+    }
+  }
+  return result;
+}
+
+}  // namespace cbc3d
