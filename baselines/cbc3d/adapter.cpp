@@ -67,7 +67,7 @@ std::vector<ParameterSpec> improvement_parameters() {
   return {
       {"no-improve", "false", kSwitch, "stop before the improvement"},
       {"decimation-rounds", "3", "", "rounds that thin the mesh out; 0: as many tets as before"},
-      {"deviation", "0.15", "voxel diagonals", "facets stay so near to the boundary"},
+      {"deviation", "0.2", "voxel diagonals", "facets stay so near to the boundary"},
       {"smoothness", "0", "", "share of the pull to the boundary that goes to smooth surfaces"},
       {"smoothness-cap", "deviation", "mm", "smoothness moves no vertex farther from the boundary"},
       {"gradation", "none", "", "growth of inner edges by the distance to the surfaces"},

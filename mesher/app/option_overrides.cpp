@@ -184,7 +184,7 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
                     [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; })
       ->check(CLI::Range(0, 20));
   add_override<double>(app, overrides, "--deviation",
-                       "improvement: facets stay so near to the boundary, voxel diagonals [0.15]",
+                       "improvement: facets stay so near to the boundary, voxel diagonals [0.2]",
                        [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; })
       ->check(CLI::Range(0.01, 2.0));
   add_override<double>(

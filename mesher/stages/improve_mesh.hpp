@@ -22,7 +22,7 @@ struct ImproveOptions {
   bool enabled = false;
   double min_dihedral_deg = 20;  ///< goal: no dihedral angle below this, none above 180 degrees minus it
   double reach_mm = 0;  ///< every boundary voxel keeps a surface vertex so near; 0: .9 voxel diagonals
-  double deviation_diagonals = 0.15;  ///< facets stay so near to the boundary, voxel diagonals
+  double deviation_diagonals = 0.2;  ///< facets stay so near to the boundary, voxel diagonals
   double surface_weight =
       1000;  ///< pull to the boundary against the tets' shape, distances in voxel diagonals
   /// In [0,1]: how much of the pull to the boundary goes to smooth surfaces, see RelaxOptions; 0: none.
