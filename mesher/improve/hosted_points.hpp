@@ -25,8 +25,6 @@ class HostedPoints {
     }
   }
 
-  void set_reach(double reach_mm) { reach_squared_ = reach_mm * reach_mm; }
-
   [[nodiscard]] const InterfacePoint& point(std::uint32_t p) const { return points_[p]; }
   [[nodiscard]] std::uint32_t first_of(VertexId v) const { return first_[v]; }
   [[nodiscard]] std::uint32_t next(std::uint32_t point) const { return next_[point]; }

@@ -194,6 +194,8 @@ class Improver {
   static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
   static constexpr double kLongestGrowth = 2.5;
   static constexpr int kFittings = 2;
+  static constexpr int kLastRepairs = 4;
+  static constexpr int kFarRepair = 4;  // the round of a repair from which on all its leeway is given
   static constexpr double kFarthestReach =
       1.05;  // of a vertex, in the target's scale, where nothing else helps
 
@@ -248,38 +250,58 @@ class Improver {
     std::size_t bad = 0;
     timed(name, [&] {
       bad = improve_near_bad_tets(mesh_, hosted_.hosts, rules, round_++, below, std::min(4, round + 1),
-                                  [&](Patch& patch) { repair_patch(patch, below > 0 && round > 0); });
+                                  [&](Patch& patch) { repair_patch(patch, below > 0 ? round : 0); });
     });
     return bad;
   }
 
-  void repair_patch(Patch& patch, bool may_split) const {
+  /// From the second round on edges may be split; later the vertices are shaken up before.
+  void repair_patch(Patch& patch, int round) const {
     for (int turn = 0; turn < 3; ++turn) {
+      if (round >= kFarRepair && turn == 1) {
+        RelaxOptions loose = relax_;
+        loose.surface_weight *= 0.03;
+        relax_vertices(patch, loose);
+      }
       climb_vertices(patch, goal_);
       remove_edges(patch, goal_);
       collapse_edges(patch, {goal_, kLongestGrowth, nullptr, true});
-      if (may_split && turn == 1) {
+      if (round > 0 && turn == 1) {
         split_edges(patch, goal_);
       }
     }
     climb_vertices(patch, goal_);
   }
 
-  /// Crossings, strays and volumes. What still crosses in the end may cost a little more distance.
+  /// Crossings, strays and volumes. Where tets have changed hands, bad ones may move that were stuck before;
+  /// what still crosses in the end may cost a little more distance.
   void finish_surfaces() {
-    HostedPoints hosted(hosted_.points, hosted_.hosts, mesh_.points.size(), hosted_.reach_mm);
-    timed("crossings", [&] { separate_and_relabel(hosted); });
+    with_points(hosted_.reach_mm, [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
+    for (int i = 0;
+         report_.tets_relabelled > 0 && i < kLastRepairs && repair("repair", goal_, kFarRepair + i) > 0;
+         ++i) {
+    }
     if (!target_.volumes_mm3.empty()) {
-      timed("volumes", [&] { balance(hosted); });
+      with_points(hosted_.reach_mm,
+                  [this](HostedPoints& hosted) { timed("volumes", [&] { balance(hosted); }); });
     }
-    if (!target_.keep_distances) {
-      hosted.set_reach(std::max(hosted_.reach_mm, kFarthestReach * target_.scale_mm));
-    }
-    timed("crossings", [&] { separate_and_relabel(hosted); });
+    const double farthest_mm = std::max(hosted_.reach_mm, kFarthestReach * target_.scale_mm);
+    with_points(target_.keep_distances ? hosted_.reach_mm : farthest_mm,
+                [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
+  }
+
+  template <typename Step>
+  void with_points(double reach_mm, const Step& step) {
+    HostedPoints hosted(hosted_.points, hosted_.hosts, mesh_.points.size(), reach_mm);
+    step(hosted);
   }
 
   /// What crosses is drawn apart; what then still does, and what stands on a wrong surface, changes hands.
   void separate_and_relabel(HostedPoints& hosted) {
+    timed("crossings", [&] { separate_and_relabel_in_turns(hosted); });
+  }
+
+  void separate_and_relabel_in_turns(HostedPoints& hosted) {
     const CrossingOptions crossing{0.08 * target_.scale_mm, goal_, 12};
     const RelabelOptions relabel{hosted_.reach_mm, target_.largest_change_mm3, goal_, 6};
     for (int turn = 0; turn < 3; ++turn) {

@@ -484,20 +484,44 @@ class Refiner {
     }
   }
 
+  /// One line a label, though each of its regions is a material of its own.
+  void warn_of_unmet() {
+    std::map<Label, std::vector<MaterialFidelity>> of_label;
+    for (const MaterialFidelity& f : result_.fidelity) {
+      of_label[f.label].push_back(f);
+    }
+    const auto worst_of = [](const MaterialFidelity& f) { return std::min(f.f1(), f.f2()); };
+    for (const auto& [label, regions] : of_label) {
+      const auto unmet =
+          std::count_if(regions.begin(), regions.end(), [](const MaterialFidelity& f) { return !f.met(); });
+      const MaterialFidelity& worst =
+          *std::min_element(regions.begin(), regions.end(), [&](const auto& a, const auto& b) {
+            return a.met() != b.met() ? b.met() : worst_of(a) < worst_of(b);
+          });
+      if (unmet == 0) {
+        continue;
+      }
+      std::string where;
+      if (regions.size() > 1) {
+        where = " in " + std::to_string(unmet) + " of its " + std::to_string(regions.size()) + " regions";
+      }
+      char text[256];
+      std::snprintf(
+          text, sizeof(text),
+          "label %d: fidelity %.3f not met%s (%sF1 = %.4f, F2 = %.4f): the lattice may not be finer "
+          "than %.3g mm",
+          label, worst.wanted, where.c_str(), unmet > 1 ? "worst: " : "", worst.f1(), worst.f2(),
+          options_.finest_spacing_mm);
+      result_.warnings.emplace_back(text);
+    }
+  }
+
   void finish() {
     result_.uncovered_voxels = coverage_ ? coverage_->uncovered_count() : 0;
     result_.uncovered_voxels += interfaces_ ? interfaces_->uncovered_count() : 0;
     result_.fidelity.erase(result_.fidelity.begin());  // background
+    warn_of_unmet();
     char text[256];
-    for (const MaterialFidelity& f : result_.fidelity) {
-      if (!f.met()) {
-        std::snprintf(text, sizeof(text),
-                      "label %d: fidelity %.3f not met (F1 = %.4f, F2 = %.4f): the lattice may not be finer "
-                      "than %.3g mm",
-                      f.label, f.wanted, f.f1(), f.f2(), options_.finest_spacing_mm);
-        result_.warnings.emplace_back(text);
-      }
-    }
     if (result_.uncovered_voxels > 0) {
       std::snprintf(
           text, sizeof(text),
