@@ -196,78 +196,87 @@ struct PatchResult {
   std::vector<MaterialId> materials;
 };
 
-}  // namespace
+/// The tets of each part, and for every vertex the part that may move it.
+struct Cut {
+  std::vector<std::vector<TetId>> parts;
+  std::vector<std::uint32_t> owner;
 
-void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules, int round,
-                        const std::function<void(Patch&)>& improve) {
-  const Bisection bisection(mesh, round, rules.patch_tets);
-  std::vector<std::vector<TetId>> parts(bisection.parts());
+  Cut(const MaterialMesh& mesh, const PatchRules& rules, int round) {
+    const Bisection bisection(mesh, round, rules.patch_tets);
+    parts.resize(bisection.parts());
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    parts[p] = bisection.part(p);
-  }
-  std::vector<std::uint32_t> owner = owners(mesh, parts);
-  for (std::size_t v = 0; v < rules.locked.size(); ++v) {
-    owner[v] = rules.locked[v] != 0 ? kShared : owner[v];
-  }
-  const PointsOfVertices hosted(hosts, mesh.points.size());
-  std::vector<PatchResult> results(parts.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    LocalMesh local(mesh, parts[p], owner);
-    Patch patch{TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
-                           std::move(local.locked)),
-                SurfaceCover(rules.points, rules.reach_mm, rules.far_reach_mm),
-                {},
-                rules.boundary,
-                rules.guards,
-                {},
-                {},
-                {},
-                {},
-                {},
-                {},
-                {},
-                {},
-                {}};
-    if (!rules.longest_mm.empty()) {
-      for (const VertexId v : local.vertices) {
-        patch.longest_mm.push_back(rules.longest_mm[v]);
-      }
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      parts[p] = bisection.part(p);
     }
-    patch.sets.resize(local.vertices.size());
-    patch.cover.resize(local.vertices.size());
-    set_up_vertices(patch, local.tets_at);
-    for (VertexId v = 0; v < local.vertices.size(); ++v) {
-      if (!patch.mesh.locked(v)) {
-        const VertexId global = local.vertices[v];
-        for (std::uint32_t i = hosted.first[global]; i < hosted.first[global + 1]; ++i) {
-          patch.cover.add(v, hosted.points[i]);
-        }
-      }
-    }
-    improve(patch);
-    for (VertexId v = 0; v < local.vertices.size(); ++v) {
-      if (!patch.mesh.locked(v)) {
-        mesh.points[local.vertices[v]] = patch.mesh.point(v);
-        patch.cover.for_each(v, [&](PointId point) { hosts[point] = local.vertices[v]; });
-      }
-    }
-    const auto known = static_cast<VertexId>(local.vertices.size());
-    for (VertexId v = known; v < patch.mesh.vertex_count(); ++v) {
-      results[p].added.push_back(patch.mesh.point(v));
-    }
-    for (TetId t = 0; t < patch.mesh.tet_slots(); ++t) {
-      if (patch.mesh.alive(t)) {
-        std::array<VertexId, 4> nodes = patch.mesh.nodes(t);
-        for (VertexId& v : nodes) {
-          v = v < known ? local.vertices[v] : kNew + (v - known);
-        }
-        results[p].tets.push_back(nodes);
-        results[p].materials.push_back(patch.mesh.material(t));
-      }
+    owner = owners(mesh, parts);
+    for (std::size_t v = 0; v < rules.locked.size(); ++v) {
+      owner[v] = rules.locked[v] != 0 ? kShared : owner[v];
     }
   }
+};
+
+Patch make_patch(LocalMesh& local, const PatchRules& rules, const PointsOfVertices& hosted) {
+  Patch patch{TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
+                         std::move(local.locked)),
+              SurfaceCover(rules.points, rules.reach_mm, rules.far_reach_mm),
+              {},
+              rules.boundary,
+              rules.guards,
+              {},
+              {},
+              {},
+              {},
+              {},
+              {},
+              {},
+              {},
+              {}};
+  for (std::size_t v = 0; !rules.longest_mm.empty() && v < local.vertices.size(); ++v) {
+    patch.longest_mm.push_back(rules.longest_mm[local.vertices[v]]);
+  }
+  patch.sets.resize(local.vertices.size());
+  patch.cover.resize(local.vertices.size());
+  set_up_vertices(patch, local.tets_at);
+  for (VertexId v = 0; v < local.vertices.size(); ++v) {
+    const VertexId global = local.vertices[v];
+    for (std::uint32_t i = hosted.first[global]; !patch.mesh.locked(v) && i < hosted.first[global + 1]; ++i) {
+      patch.cover.add(v, hosted.points[i]);
+    }
+  }
+  return patch;
+}
+
+/// The places of the patch's own vertices, and the points they host.
+void give_back(const Patch& patch, const LocalMesh& local, MaterialMesh& mesh, std::vector<VertexId>& hosts) {
+  for (VertexId v = 0; v < local.vertices.size(); ++v) {
+    if (!patch.mesh.locked(v)) {
+      mesh.points[local.vertices[v]] = patch.mesh.point(v);
+      patch.cover.for_each(v, [&](PointId point) { hosts[point] = local.vertices[v]; });
+    }
+  }
+}
+
+PatchResult result_of(const Patch& patch, const LocalMesh& local) {
+  PatchResult result;
+  const auto known = static_cast<VertexId>(local.vertices.size());
+  for (VertexId v = known; v < patch.mesh.vertex_count(); ++v) {
+    result.added.push_back(patch.mesh.point(v));
+  }
+  for (TetId t = 0; t < patch.mesh.tet_slots(); ++t) {
+    if (patch.mesh.alive(t)) {
+      std::array<VertexId, 4> nodes = patch.mesh.nodes(t);
+      for (VertexId& v : nodes) {
+        v = v < known ? local.vertices[v] : kNew + (v - known);
+      }
+      result.tets.push_back(nodes);
+      result.materials.push_back(patch.mesh.material(t));
+    }
+  }
+  return result;
+}
+
+/// The mesh of all patches' tets; new vertices are numbered in the patches' order.
+void join(std::vector<PatchResult>& results, MaterialMesh& mesh) {
   mesh.tets.clear();
   mesh.materials.clear();
   for (PatchResult& result : results) {
@@ -281,6 +290,24 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
     mesh.tets.insert(mesh.tets.end(), result.tets.begin(), result.tets.end());
     mesh.materials.insert(mesh.materials.end(), result.materials.begin(), result.materials.end());
   }
+}
+
+}  // namespace
+
+void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules, int round,
+                        const std::function<void(Patch&)>& improve) {
+  const Cut cut(mesh, rules, round);
+  const PointsOfVertices hosted(hosts, mesh.points.size());
+  std::vector<PatchResult> results(cut.parts.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t p = 0; p < cut.parts.size(); ++p) {
+    LocalMesh local(mesh, cut.parts[p], cut.owner);
+    Patch patch = make_patch(local, rules, hosted);
+    improve(patch);
+    give_back(patch, local, mesh, hosts);
+    results[p] = result_of(patch, local);
+  }
+  join(results, mesh);
 }
 
 namespace {

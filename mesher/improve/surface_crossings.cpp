@@ -187,8 +187,8 @@ class Retreat {
   bool move(VertexId v, const Vec3& inwards) {
     const Vec3 from = mesh_.points[v];
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
-    for (double length = options_.step_mm; length > 0.2 * options_.step_mm; length *= 0.5) {
-      mesh_.points[v] = from + length * inwards;
+    for (const double share : {1.0, 0.5, 0.25}) {
+      mesh_.points[v] = from + share * options_.step_mm * inwards;
       if (hosted_.allow(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
         return true;
       }

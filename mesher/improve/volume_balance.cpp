@@ -79,7 +79,7 @@ class Balance {
   void move(VertexId v, const Vec3& step) {
     const Vec3 from = mesh_.points[v];
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
-    for (double share = 1; share > 0.2; share *= 0.5) {
+    for (const double share : {1.0, 0.5, 0.25}) {
       mesh_.points[v] = from + share * step;
       if (hosted_.allow(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
         return;
