@@ -84,6 +84,7 @@ class CrossingFinder {
     }
     cell_mm_ = facets.empty() ? 1 : 2 * sum / static_cast<double>(facets.size());
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
+      boxes_.push_back(box_of(facets[f]));
       for_each_cell(f, [&](std::uint64_t key) { entries_.push_back({key, f}); });
     }
     std::sort(entries_.begin(), entries_.end());
@@ -110,6 +111,25 @@ class CrossingFinder {
     std::uint32_t facet;
     auto operator<=>(const Entry&) const = default;
   };
+
+  struct Box {
+    Vec3 low, high;
+    [[nodiscard]] bool meets(const Box& other, double leeway) const {
+      return low.x <= other.high.x + leeway && other.low.x <= high.x + leeway &&
+             low.y <= other.high.y + leeway && other.low.y <= high.y + leeway &&
+             low.z <= other.high.z + leeway && other.low.z <= high.z + leeway;
+    }
+  };
+  [[nodiscard]] Box box_of(const Facet& f) const {
+    Box box{points_[f[0]], points_[f[0]]};
+    for (const VertexId v : f) {
+      for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], points_[v][axis]);
+        box.high[axis] = std::max(box.high[axis], points_[v][axis]);
+      }
+    }
+    return box;
+  }
 
   template <typename F>
   void for_each_cell(std::uint32_t facet, const F& f) const {
@@ -138,7 +158,9 @@ class CrossingFinder {
     for_each_cell(f, [&](std::uint64_t key) {
       for (auto e = std::lower_bound(entries_.begin(), entries_.end(), Entry{key, f + 1});
            e != entries_.end() && e->key == key; ++e) {
-        near.push_back(e->facet);
+        if (boxes_[f].meets(boxes_[e->facet], 1e-6 * cell_mm_)) {
+          near.push_back(e->facet);
+        }
       }
     });
     std::sort(near.begin(), near.end());
@@ -172,6 +194,7 @@ class CrossingFinder {
   const std::vector<Vec3>& points_;
   const std::vector<Facet>& facets_;
   double cell_mm_ = 1;
+  std::vector<Box> boxes_;  // of the facets
   std::vector<Entry> entries_;
 };
 

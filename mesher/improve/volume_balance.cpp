@@ -8,6 +8,25 @@
 namespace cbc3d {
 namespace {
 
+Extent extent_of(const MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
+                 std::size_t materials) {
+  Extent extent{std::vector<double>(materials, 0.0), std::vector<double>(materials, 0.0)};
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets[t];
+    const MaterialId m = mesh.materials[t];
+    extent.volume_mm3[m] +=
+        six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6;
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (neighbours[t][f] == kNoTet || mesh.materials[neighbours[t][f]] != m) {
+        const auto& face = kTetFace[f];
+        const Vec3& p = mesh.points[n[face[0]]];
+        extent.area_mm2[m] += 0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
+      }
+    }
+  }
+  return extent;
+}
+
 class Balance {
  public:
   Balance(MaterialMesh& mesh, const HostedPoints& hosted, const BalanceOptions& options)
@@ -36,7 +55,7 @@ class Balance {
  private:
   /// How far every material's surface is to go; false when all volumes are as they should be.
   bool find_steps() {
-    const Extent extent = extent_of_materials(mesh_, options_.wanted_mm3.size());
+    const Extent extent = extent_of(mesh_, neighbours_, options_.wanted_mm3.size());
     std::vector<double> wanted(extent.volume_mm3.size(), 0.0), lack = wanted, area = wanted;
     for (std::size_t m = 1; m < wanted.size(); ++m) {
       const MaterialId label = options_.label_of[m];
@@ -111,22 +130,7 @@ class Balance {
 }  // namespace
 
 Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials) {
-  Extent extent{std::vector<double>(materials, 0.0), std::vector<double>(materials, 0.0)};
-  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto& n = mesh.tets[t];
-    const MaterialId m = mesh.materials[t];
-    extent.volume_mm3[m] +=
-        six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6;
-    for (std::size_t f = 0; f < 4; ++f) {
-      if (neighbours[t][f] == kNoTet || mesh.materials[neighbours[t][f]] != m) {
-        const auto& face = kTetFace[f];
-        const Vec3& p = mesh.points[n[face[0]]];
-        extent.area_mm2[m] += 0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
-      }
-    }
-  }
-  return extent;
+  return extent_of(mesh, tet_neighbours(mesh.tets, mesh.points.size()), materials);
 }
 
 void balance_volumes(MaterialMesh& mesh, const HostedPoints& hosted, const BalanceOptions& options) {
