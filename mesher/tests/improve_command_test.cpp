@@ -33,15 +33,6 @@ Outcome run(const std::string& arguments) {
   return testing::run_command("improve " + arguments);
 }
 
-double smallest_dihedral_deg(const Mesh& mesh) {
-  double smallest = 180;
-  for (const auto& n : mesh.tets.nodes) {
-    smallest = std::min(smallest, min_dihedral_deg(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
-                                                   mesh.points[n[3]]));
-  }
-  return smallest;
-}
-
 /// Voxel (i, j, k) of a block of n^3 cubes: label -7 in a smaller block within, else 2000000000.
 Label block_label(int n, int i, int j, int k) {
   const bool inner = std::min({i, j, k}) >= n / 4 && std::max({i, j, k}) < n - n / 4;
@@ -137,13 +128,13 @@ TEST_F(ImproveCommand, LiftsSliversAndKeepsLabelsVolumesAndSurfaces) {
                               at("out.vtk") + " --report " + at("r.json"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const Mesh after = read_mesh(at("out.vtk"));
-  EXPECT_GE(smallest_dihedral_deg(after), 15 - 1e-6);
+  EXPECT_GE(testing::smallest_dihedral_deg(after), 15 - 1e-6);
   EXPECT_EQ(labels_of(after), (std::vector<Label>{-7, 2000000000}));
   EXPECT_NEAR(testing::volume_of(after, -7), 64, 0.64);
   EXPECT_NEAR(testing::volume_of(after, 2000000000), 448, 4.48);
   const nlohmann::json report = nlohmann::json::parse(std::ifstream(at("r.json")));
   EXPECT_LT(report["before"]["min_dihedral_deg"], 6);
-  EXPECT_NEAR(report["after"]["min_dihedral_deg"], smallest_dihedral_deg(after), 1e-3);
+  EXPECT_NEAR(report["after"]["min_dihedral_deg"], testing::smallest_dihedral_deg(after), 1e-3);
   EXPECT_EQ(report["before"]["tets"], before.tets.size());
   EXPECT_EQ(report["after"]["tets"], after.tets.size());
 }
@@ -174,7 +165,7 @@ TEST_F(ImproveCommand, FollowsAnImageInItsOwnFrame) {
   const Mesh before = read_mesh(at("ball.vtu"));
   const Mesh after = read_mesh(at("out.vtu"));
   EXPECT_EQ(labels_of(after), (std::vector<Label>{1, 2}));
-  EXPECT_GE(smallest_dihedral_deg(after), 20 - 1e-3);
+  EXPECT_GE(testing::smallest_dihedral_deg(after), 20 - 1e-3);
   EXPECT_LT(after.tets.size(), before.tets.size());
   const std::vector<std::size_t> voxels = image.voxels_per_material();
   for (const Label label : {1, 2}) {
@@ -196,7 +187,7 @@ TEST_F(ImproveCommand, UntanglesWhatIsInsideOutAndFlat) {
   const nlohmann::json report = nlohmann::json::parse(std::ifstream(at("r.json")));
   EXPECT_GT(report["before"]["not_positive"], 2);
   EXPECT_EQ(report["after"]["not_positive"], 0);
-  EXPECT_GT(smallest_dihedral_deg(read_mesh(at("out.vtu"))), 10);
+  EXPECT_GT(testing::smallest_dihedral_deg(read_mesh(at("out.vtu"))), 10);
 }
 
 TEST_F(ImproveCommand, SaysWhatCannotBeUntangled) {

@@ -300,15 +300,6 @@ TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
 
 // ---- the stage and the preset
 
-double smallest_dihedral(const Mesh& mesh) {
-  double smallest = 180;
-  for (const auto& n : mesh.tets.nodes) {
-    smallest = std::min(smallest, min_dihedral_deg(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
-                                                   mesh.points[n[3]]));
-  }
-  return smallest;
-}
-
 void expect_sound(const Mesh& mesh, const std::vector<Label>& labels) {
   EXPECT_EQ(testing::inverted_tets(mesh.tets.nodes, mesh.points), 0U);
   EXPECT_EQ(testing::crowded_faces(mesh.tets.nodes), 0U);
@@ -366,7 +357,7 @@ TEST(QualityPreset, AnObliqueFlippedFrameKeepsOrientation) {
   image.frame = testing::oblique(image.frame, true);
   const Mesh mesh = mesh_of(image);
   expect_sound(mesh, {1, 2});
-  EXPECT_GE(smallest_dihedral(mesh), 20);
+  EXPECT_GE(testing::smallest_dihedral_deg(mesh), 20);
 }
 
 TEST(QualityPreset, SmoothPhantomsHaveGoodAnglesAndTheirTopology) {
@@ -386,7 +377,7 @@ TEST(QualityPreset, SmoothPhantomsHaveGoodAnglesAndTheirTopology) {
     MeshImageReport report;
     const Mesh mesh = mesh_of(image, true, report);
     expect_sound(mesh, std::vector<Label>(image.labels.begin() + 1, image.labels.end()));
-    EXPECT_GE(smallest_dihedral(mesh), 20);
+    EXPECT_GE(testing::smallest_dihedral_deg(mesh), 20);
     EXPECT_GE(report.improve.min_dihedral_after_deg, 20);
     EXPECT_EQ(report.improve.tets_after, mesh.tets.size());
     EXPECT_LT(report.improve.tets_after, report.improve.tets_before);

@@ -25,15 +25,6 @@ Mesh mesh_of(const LabelImage& image, const std::string& preset = "quality") {
   return mesh_of(image, preset_options(preset, image.frame), report);
 }
 
-double smallest_dihedral(const Mesh& mesh) {
-  double smallest = 180;
-  for (const auto& n : mesh.tets.nodes) {
-    smallest = std::min(smallest, min_dihedral_deg(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
-                                                   mesh.points[n[3]]));
-  }
-  return smallest;
-}
-
 Vec3 centroid_of(const Mesh& mesh, Label label) {
   Vec3 sum;
   double volume = 0;
@@ -62,7 +53,7 @@ TEST(MeshImage, BallHasTheVolumeOfTheBall) {
   const double shell = 4.0 / 3 * std::numbers::pi * 18 * 18 * 18 - core;
   EXPECT_NEAR(volume_of(mesh, 2), core, 0.04 * core);
   EXPECT_NEAR(volume_of(mesh, 1), shell, 0.02 * shell);
-  EXPECT_GE(smallest_dihedral(mesh), 5);
+  EXPECT_GE(testing::smallest_dihedral_deg(mesh), 5);
 }
 
 TEST(MeshImage, BallSurfaceLiesNearTheSphere) {
@@ -120,7 +111,7 @@ TEST(MeshImage, ObliqueAndFlippedImagesGiveTheSameMeshInTheirOwnFrame) {
     for (const Label label : {1, 2}) {
       EXPECT_NEAR(volume_of(mesh, label), volume_of(reference, label), 1e-6);
     }
-    EXPECT_GE(smallest_dihedral(mesh), 5);  // positive orientation in the flipped frame too
+    EXPECT_GE(testing::smallest_dihedral_deg(mesh), 5);  // positive orientation in the flipped frame too
   }
 }
 
@@ -230,7 +221,7 @@ TEST(MeshImage, EveryLabelOfANoisyImageIsInTheMeshOrNamed) {
   const LabelImage image = testing::noise_image(20, 0.3, 5);
   MeshImageReport report;
   const Mesh mesh = mesh_of(image, preset_options("quality", image.frame), report);
-  EXPECT_GE(smallest_dihedral(mesh), 5);
+  EXPECT_GE(testing::smallest_dihedral_deg(mesh), 5);
   for (const Label label : {1, 2}) {
     const auto labels = labels_of(mesh);
     const bool there = std::find(labels.begin(), labels.end(), label) != labels.end();

@@ -7,6 +7,7 @@
 
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
+#include "mesher/stages/cell_quality.hpp"
 
 namespace cbc3d::testing {
 
@@ -69,6 +70,15 @@ inline ImageFrame oblique(ImageFrame frame, bool flipped) {
   }
   frame.origin_mm = {-31, 12, 155};
   return frame;
+}
+
+inline double smallest_dihedral_deg(const Mesh& mesh) {
+  double smallest = 180;
+  for (const auto& n : mesh.tets.nodes) {
+    smallest = std::min(smallest, min_dihedral_deg(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
+                                                   mesh.points[n[3]]));
+  }
+  return smallest;
 }
 
 inline double volume_of(const Mesh& mesh, Label label) {
