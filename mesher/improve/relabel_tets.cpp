@@ -226,7 +226,7 @@ class Relabeller {
     }
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
     const Vec3 step = (options_.reach_mm / (*to - from).norm()) * (*to - from);
-    for (const double share : {0.02, 0.05, 0.1, 0.2, 0.4}) {
+    for (const double share : {0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8}) {
       mesh_.points[v] = from + share * step;
       if (places_.is_near(mesh_.points[v], material)) {
         if (worst_at(v) >= floor && is_near_all(v) && hosted_.allow(v, from, mesh_.points[v])) {
