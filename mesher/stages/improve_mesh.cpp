@@ -82,6 +82,7 @@ void host_far_points(const MaterialMesh& mesh, const std::vector<MaterialSet>& s
   }
   for (int doubling = 0; doubling < 12 && !lost.empty(); ++doubling, reach_mm *= 2) {
     std::vector<InterfacePoint> points;
+    points.reserve(lost.size());
     for (const std::size_t p : lost) {
       points.push_back(hosted.points[p]);
     }
