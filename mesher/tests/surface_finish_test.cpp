@@ -71,6 +71,13 @@ ImagePlaces plane_at(int n, double level, double near) {
           [=](const Vec3& at) { return MaterialId{static_cast<MaterialId>(at.z < level ? 1 : 2)}; }};
 }
 
+/// No step of a vertex is long enough to mend a spike.
+RelabelOptions short_steps() {
+  RelabelOptions options;
+  options.reach_mm = 0.5;
+  return options;
+}
+
 /// Tets of material 2 on the plane z = 2 with a single vertex above it, no two of them near each other.
 std::vector<TetId> make_spikes(MaterialMesh& mesh) {
   std::vector<TetId> spikes;
@@ -100,7 +107,7 @@ TEST(RelabelTets, SpikesGoBackToWhatTheImageHasThere) {
   ASSERT_EQ(faults(mesh), 0U);
   std::vector<VertexId> hosts;
   HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
-  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), {});
+  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), short_steps());
   EXPECT_EQ(report.strays, spikes.size());
   EXPECT_EQ(report.tets_relabelled, spikes.size());
   EXPECT_EQ(mesh.materials, clean.materials);
@@ -119,7 +126,7 @@ TEST(RelabelTets, ASpikeThatABoundaryVoxelNeedsStays) {
       {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, 1, 2}};
   std::vector<VertexId> hosts = {tip};
   HostedPoints hosted(points, hosts, mesh.points.size(), 0.5);
-  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), {});
+  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), short_steps());
   EXPECT_EQ(mesh.materials[spikes[0]], 1);
   EXPECT_EQ(report.tets_relabelled, spikes.size() - 1);
   EXPECT_EQ(hosts[0], tip);
