@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/improve/mesh_star.hpp"
 #include "mesher/improve/surface_crossings.hpp"
-#include "mesher/improve/tet_shape.hpp"
 
 namespace cbc3d {
 namespace {
@@ -23,9 +23,7 @@ class LabelledComplex {
 
   [[nodiscard]] const MaterialMesh& mesh() const { return mesh_; }
   [[nodiscard]] const MaterialSet& set(VertexId v) const { return sets_[v]; }
-  [[nodiscard]] std::span<const TetId> star(VertexId v) const {
-    return {around_.tets.data() + around_.first[v], around_.tets.data() + around_.first[v + 1]};
-  }
+  [[nodiscard]] std::span<const TetId> star(VertexId v) const { return star_of(around_, v); }
   [[nodiscard]] MaterialId material(TetId t) const { return mesh_.materials[t]; }
   [[nodiscard]] MaterialId across(TetId t, std::size_t n) const {
     return neighbours_[t][n] == kNoTet ? kBackground : mesh_.materials[neighbours_[t][n]];
@@ -241,13 +239,7 @@ class Relabeller {
   }
 
   [[nodiscard]] double worst_at(VertexId v) const {
-    double worst = 1;
-    for (const TetId t : complex_.star(v)) {
-      const auto& n = mesh_.tets[t];
-      worst = std::min(worst, min_sine_squared(mesh_.points[n[0]], mesh_.points[n[1]], mesh_.points[n[2]],
-                                               mesh_.points[n[3]]));
-    }
-    return worst;
+    return worst_sine_squared(mesh_, complex_.star(v));
   }
 
   [[nodiscard]] bool is_near_all(VertexId v) const {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/improve/tet_shape.hpp"
+#include "mesher/improve/mesh_star.hpp"
 
 namespace cbc3d {
 namespace {
@@ -107,15 +107,7 @@ class Balance {
     mesh_.points[v] = from;
   }
 
-  [[nodiscard]] double worst_at(VertexId v) const {
-    double worst = 1;
-    for (std::uint32_t i = around_.first[v]; i < around_.first[v + 1]; ++i) {
-      const auto& n = mesh_.tets[around_.tets[i]];
-      worst = std::min(worst, min_sine_squared(mesh_.points[n[0]], mesh_.points[n[1]], mesh_.points[n[2]],
-                                               mesh_.points[n[3]]));
-    }
-    return worst;
-  }
+  [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, star_of(around_, v)); }
 
   MaterialMesh& mesh_;
   const HostedPoints& hosted_;
