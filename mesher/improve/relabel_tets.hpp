@@ -1,10 +1,10 @@
 // The last resort where labels come within a voxel of each other: single tets change hands.
 //
 // A tip of one label that reaches into another, or over a gap, leaves a vertex on a surface where the image
-// has none, and outer facets that cut each other. No move of vertices mends that, for the vertex belongs to
-// both sides. A small step of the vertex may do; else the tets of the tip become their neighbour's, or are
-// left out, where every surface stays a manifold, every vertex near the boundary of its labels, and every
-// interface point within reach.
+// has none, and outer facets that cut each other. Where a step of that vertex does not mend it, for it
+// belongs to both sides, the tets of the tip become their neighbour's or are left out, as long as every
+// surface stays a manifold, every vertex near the boundary of its labels, and every interface point within
+// reach.
 #pragma once
 
 #include <functional>
