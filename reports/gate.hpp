@@ -8,7 +8,8 @@
 //            "missing_labels": [], "figures": {"counts.tets": 123, ...}}]}
 // Repeats of a job are one entry: the figures of deterministic meshers must be the same in all of them, time
 // and memory are the smallest, the others the median. "time_ratio" is CPU time over that of the fixed piece
-// of work (reference_work.hpp) measured beside it, so that a slower or busier machine does not count.
+// of work (reference_work.hpp) done beside it in as many threads, so that a slower or busier machine does not
+// count.
 #pragma once
 
 #include <filesystem>

@@ -332,9 +332,9 @@ void JobRunner::run_children(const Job& job, const fs::path& image, Json& result
   const JobFiles files(options_.out_dir, stem, job.mesher->mesh_extension);
   files.remove_all();
   const Children children(bench_, options_, job, files);
-  const double reference_before_s = reference_cpu_seconds();
+  const double reference_before_s = reference_cpu_seconds(job.threads);
   const bool meshed = children.mesh(image, result);
-  result["time_s"]["reference_cpu"] = std::min(reference_before_s, reference_cpu_seconds());
+  result["time_s"]["reference_cpu"] = std::min(reference_before_s, reference_cpu_seconds(job.threads));
   if (!meshed) {
     return;
   }
