@@ -64,7 +64,6 @@ class Deformer {
     image_.voxels.page_out();
     report_.sources = sources_.sources.size();
     report_.targets = targets_.targets.size();
-    displacement_.resize(mesh_.points.size());
   }
 
   /// H and H^T D.
@@ -94,6 +93,8 @@ class Deformer {
     const QualityControl quality(mesh_, around_, options_.quality);
     const std::vector<Vec3> before = mesh_.points;
     std::vector<CellId> failing;
+    // What the last iteration asked for is mostly reached: its displacements would be a poor start.
+    displacement_.assign(before.size(), {});
     for (now().attempts = 0;; ++now().attempts) {
       timed("solve", [&] { now().solver = system.solve(load_, displacement_); });
       failing = timed("quality_control", [&] {

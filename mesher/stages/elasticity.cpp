@@ -7,202 +7,137 @@
 namespace cbc3d {
 namespace {
 
-/// The inverse of a diagonal block, the identity for a vertex without stiffness.
-std::array<double, 9> inverse_of(const std::array<float, 9>& m) {
-  const Vec3 r0{m[0], m[1], m[2]};
-  const Vec3 r1{m[3], m[4], m[5]};
-  const Vec3 r2{m[6], m[7], m[8]};
-  const Vec3 c0 = r1.cross(r2);
-  const Vec3 c1 = r2.cross(r0);
-  const Vec3 c2 = r0.cross(r1);
-  const double det = r0.dot(c0);
-  if (!(det > 0)) {
-    return {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  }
-  const double s = 1 / det;
-  return {c0.x * s, c1.x * s, c2.x * s, c0.y * s, c1.y * s, c2.y * s, c0.z * s, c1.z * s, c2.z * s};
+/// columns += s a b^T.
+void add_product(float s, const Float4& a, const Float4& b, Columns3& m) {
+  const Float4 sa = s * a;
+  m.c[0] += sa * spread<0>(b);
+  m.c[1] += sa * spread<1>(b);
+  m.c[2] += sa * spread<2>(b);
 }
 
-template <typename Real>
-Vec3 times(const std::array<Real, 9>& m, const Vec3& v) {
-  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
-          m[6] * v.x + m[7] * v.y + m[8] * v.z};
-}
-
-/// Sum in fixed chunks, then over the chunks in order: the same bits at any thread count.
-template <typename Term>
-double ordered_sum(std::size_t count, const Term& term) {
-  constexpr std::size_t kChunk = 2048;
-  std::vector<double> partial((count + kChunk - 1) / kChunk);
-#pragma omp parallel for schedule(static)
-  for (std::size_t c = 0; c < partial.size(); ++c) {
-    double sum = 0;
-    for (std::size_t v = c * kChunk; v < std::min(count, (c + 1) * kChunk); ++v) {
-      sum += term(v);
-    }
-    partial[c] = sum;
+/// ratio Q + Q^T + tr(Q) I + rest.
+Columns3 stiffness_of(float ratio, const Columns3& q, const Columns3& rest) {
+  const float trace = q.c[0][0] + q.c[1][1] + q.c[2][2];
+  Columns3 k;
+  transpose(q.c, k.c);
+  for (int i = 0; i < 3; ++i) {
+    k.c[i] += ratio * q.c[i] + rest.c[i];
   }
-  double total = 0;
-  for (const double p : partial) {
-    total += p;
-  }
-  return total;
-}
-
-double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  return ordered_sum(a.size(), [&](std::size_t v) { return a[v].dot(b[v]); });
+  k.c[0] += Float4(trace, 0, 0, 0);
+  k.c[1] += Float4(0, trace, 0, 0);
+  k.c[2] += Float4(0, 0, trace, 0);
+  return k;
 }
 
 }  // namespace
 
 ElasticSystem::ElasticSystem(const MaterialMesh& mesh, const VertexCells& around,
                              const std::vector<ElasticMaterial>& materials, const ElasticityOptions& options)
-    : options_(options), around_(around) {
+    : options_(options), around_(around), shape_(mesh.tets.size()), matrix_(mesh, around) {
   std::transform(materials.begin(), materials.end(), std::back_inserter(lame_), lame_constants);
-  const std::size_t count = mesh.points.size();
-  const auto row_of = [&](std::size_t v, std::vector<VertexId>& row) {
-    row.clear();
-    for (const CellId c : around.of(static_cast<VertexId>(v))) {
-      const auto nodes = mesh.nodes_of(c);
-      row.insert(row.end(), nodes.begin(), nodes.end());
-    }
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-  };
-  first_.assign(count + 1, 0);
-#pragma omp parallel
-  {
-    std::vector<VertexId> row;
-#pragma omp for schedule(static, 512)
-    for (std::size_t v = 0; v < count; ++v) {
-      row_of(v, row);
-      first_[v + 1] = row.size();
-    }
-  }
-  for (std::size_t v = 0; v < count; ++v) {
-    first_[v + 1] += first_[v];
-  }
-  column_.resize(first_[count]);
-#pragma omp parallel
-  {
-    std::vector<VertexId> row;
-#pragma omp for schedule(static, 512)
-    for (std::size_t v = 0; v < count; ++v) {
-      row_of(v, row);
-      std::copy(row.begin(), row.end(), column_.begin() + static_cast<std::ptrdiff_t>(first_[v]));
-    }
-  }
-  blocks_.resize(column_.size());
-  inverse_diagonal_.resize(count);
+  const double poisson = materials.empty() ? 0 : materials[0].poisson;
+  one_ratio_ = mesh.tets.size() == mesh.cell_count() &&
+               std::all_of(materials.begin(), materials.end(),
+                           [&](const ElasticMaterial& m) { return m.poisson == poisson; });
+  ratio_ = one_ratio_ ? static_cast<float>(2 * poisson / (1 - 2 * poisson)) : 0;
 }
 
 void ElasticSystem::assemble(const MaterialMesh& mesh, const std::vector<std::uint8_t>& is_source) {
 #pragma omp parallel
   {
+#pragma omp for schedule(static)
+    for (std::size_t t = 0; t < shape_.size(); ++t) {
+      const auto& n = mesh.tets[t];
+      shape_[t] = tet_gradients(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]],
+                                lame_[mesh.materials[t]].mu);
+    }
     Scratch scratch;
     scratch.place.resize(is_source.size());
 #pragma omp for schedule(static, 512)
     for (std::size_t v = 0; v < is_source.size(); ++v) {
-      assemble_upper_row(mesh, static_cast<VertexId>(v), is_source[v] != 0, scratch);
-    }
-#pragma omp for schedule(static, 512)
-    for (std::size_t v = 0; v < is_source.size(); ++v) {
-      mirror_lower_row(static_cast<VertexId>(v));
+      assemble_row(mesh, static_cast<VertexId>(v), is_source[v] != 0, scratch);
     }
   }
 }
 
-/// Row v from its diagonal on; it gathers from the cells at v, so rows are independent.
-void ElasticSystem::assemble_upper_row(const MaterialMesh& mesh, VertexId v, bool source, Scratch& scratch) {
-  const auto columns = neighbours(v);
-  const auto diagonal =
-      static_cast<std::size_t>(std::lower_bound(columns.begin(), columns.end(), v) - columns.begin());
-  scratch.sums.assign(columns.size() - diagonal, {});
-  for (std::size_t b = diagonal; b < columns.size(); ++b) {
-    scratch.place[columns[b]] = static_cast<std::uint32_t>(b - diagonal);
+/// It gathers from the cells at v, so rows are independent. The diagonal block is what the others lack to a
+/// sum of zero, for a mesh that is moved as a whole has no force in it.
+void ElasticSystem::assemble_row(const MaterialMesh& mesh, VertexId v, bool source, Scratch& scratch) {
+  const auto columns = matrix_.columns(v);
+  scratch.sums.assign(columns.size(), {});
+  for (std::size_t b = 0; b < columns.size(); ++b) {
+    scratch.place[columns[b]] = static_cast<std::uint32_t>(b);
   }
   for (const CellId c : around_.of(v)) {
-    const auto nodes = mesh.nodes_of(c);
-    std::size_t own = 0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      scratch.points[n] = mesh.points[nodes[n]];
-      scratch.row[n] = nodes[n] < v ? nullptr : &scratch.sums[scratch.place[nodes[n]]];
-      own = nodes[n] == v ? n : own;
+    if (c < shape_.size()) {
+      add_tet(mesh, c, v, scratch);
+    } else {
+      add_other_cell(mesh, c, v, scratch);
     }
-    add_element_stiffness_row({scratch.points.data(), nodes.size()}, own, lame_[mesh.material_of(c)],
-                              {scratch.row.data(), nodes.size()});
   }
-  for (std::size_t e = 0; e < 9 && source && !scratch.sums.empty(); e += 4) {
-    scratch.sums[0][e] += 1;
+  Columns3 diagonal;
+  for (std::size_t b = 0; b < columns.size(); ++b) {
+    if (columns[b] != v) {
+      const Columns3 block = stiffness_of(ratio_, scratch.sums[b].q, scratch.sums[b].rest);
+      matrix_.set_block(v, b, block);
+      for (int i = 0; i < 3; ++i) {
+        diagonal.c[i] -= block.c[i];
+      }
+    }
   }
-  for (std::size_t b = diagonal; b < columns.size(); ++b) {
-    std::copy(scratch.sums[b - diagonal].begin(), scratch.sums[b - diagonal].end(),
-              blocks_[first_[v] + b].begin());
+  if (source) {
+    diagonal.c[0] += Float4(1, 0, 0, 0);
+    diagonal.c[1] += Float4(0, 1, 0, 0);
+    diagonal.c[2] += Float4(0, 0, 1, 0);
   }
-  if (diagonal < columns.size()) {
-    inverse_diagonal_[v] = inverse_of(blocks_[first_[v] + diagonal]);
+  matrix_.set_block(v, scratch.place[v], diagonal);
+  matrix_.set_inverse_diagonal(v, inverse_of(diagonal));
+}
+
+void ElasticSystem::add_tet(const MaterialMesh& mesh, CellId tet, VertexId v, Scratch& scratch) const {
+  const auto& nodes = mesh.tets[tet];
+  const auto& [g1, g2, g3] = shape_[tet];
+  const std::array<Float4, 4> g = {Float4() - (g1 + g2 + g3), g1, g2, g3};
+  const auto own = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
+  for (std::size_t n = 1; n < 4; ++n) {
+    const std::size_t other = (own + n) & 3U;
+    BlockSum& sum = scratch.sums[scratch.place[nodes[other]]];
+    add_product(1, g[own], g[other], sum.q);
+    if (!one_ratio_) {
+      const LameConstants& lame = lame_[mesh.materials[tet]];
+      add_product(static_cast<float>(lame.lambda / lame.mu), g[own], g[other], sum.rest);
+    }
   }
 }
 
-/// Row v before its diagonal: the transposed blocks of the rows above.
-void ElasticSystem::mirror_lower_row(VertexId v) {
-  const auto columns = neighbours(v);
-  for (std::size_t b = 0; b < columns.size() && columns[b] < v; ++b) {
-    const auto above = neighbours(columns[b]);
-    const auto place =
-        static_cast<std::size_t>(std::lower_bound(above.begin(), above.end(), v) - above.begin());
-    const Block& m = blocks_[first_[columns[b]] + place];
-    blocks_[first_[v] + b] = {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
+void ElasticSystem::add_other_cell(const MaterialMesh& mesh, CellId cell, VertexId v,
+                                   Scratch& scratch) const {
+  const auto nodes = mesh.nodes_of(cell);
+  std::array<StiffnessBlock*, 8> row{};
+  std::size_t own = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    scratch.points[n] = mesh.points[nodes[n]];
+    scratch.row[n] = {};
+    row[n] = &scratch.row[n];
+    own = nodes[n] == v ? n : own;
+  }
+  add_element_stiffness_row({scratch.points.data(), nodes.size()}, own, lame_[mesh.material_of(cell)],
+                            {row.data(), nodes.size()});
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const StiffnessBlock& k = scratch.row[n];
+    Columns3& rest = scratch.sums[scratch.place[nodes[n]]].rest;
+    rest.c[0] += Float4(Vec3{k[0], k[3], k[6]});
+    rest.c[1] += Float4(Vec3{k[1], k[4], k[7]});
+    rest.c[2] += Float4(Vec3{k[2], k[5], k[8]});
   }
 }
 
 void ElasticSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
+  const std::vector<Float4> from(x.begin(), x.end());
 #pragma omp parallel for schedule(static, 512)
   for (std::size_t v = 0; v < y.size(); ++v) {
-    Vec3 sum;
-    for (std::uint64_t b = first_[v]; b < first_[v + 1]; ++b) {
-      sum += times(blocks_[b], x[column_[b]]);
-    }
-    y[v] = sum;
+    y[v] = matrix_.row_times(static_cast<VertexId>(v), from).xyz();
   }
-}
-
-SolveReport ElasticSystem::solve(const std::vector<Vec3>& load, std::vector<Vec3>& u) const {
-  const std::size_t count = load.size();
-  std::vector<Vec3> r(count);
-  std::vector<Vec3> z(count);
-  std::vector<Vec3> q(count);
-  multiply(u, q);
-#pragma omp parallel for schedule(static)
-  for (std::size_t v = 0; v < count; ++v) {
-    r[v] = load[v] - q[v];
-    z[v] = times(inverse_diagonal_[v], r[v]);
-  }
-  std::vector<Vec3> p = z;
-  const double scale = std::sqrt(dot(load, load));
-  double rz = dot(r, z);
-  SolveReport report;
-  report.relative_residual = scale > 0 ? std::sqrt(dot(r, r)) / scale : 0;
-  while (report.iterations < options_.max_iterations && report.relative_residual > options_.tolerance) {
-    multiply(p, q);
-    const double alpha = rz / dot(p, q);
-#pragma omp parallel for schedule(static)
-    for (std::size_t v = 0; v < count; ++v) {
-      u[v] += alpha * p[v];
-      r[v] -= alpha * q[v];
-      z[v] = times(inverse_diagonal_[v], r[v]);
-    }
-    const double next = dot(r, z);
-    const double beta = next / rz;
-    rz = next;
-#pragma omp parallel for schedule(static)
-    for (std::size_t v = 0; v < count; ++v) {
-      p[v] = z[v] + beta * p[v];
-    }
-    report.relative_residual = std::sqrt(dot(r, r)) / scale;
-    ++report.iterations;
-  }
-  return report;
 }
 
 }  // namespace cbc3d

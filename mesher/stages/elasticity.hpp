@@ -9,6 +9,7 @@
 #include <map>
 #include <vector>
 
+#include "mesher/stages/block_matrix.hpp"
 #include "mesher/stages/element_stiffness.hpp"
 #include "mesher/stages/material_mesh.hpp"
 
@@ -17,17 +18,9 @@ namespace cbc3d {
 struct ElasticityOptions {
   ElasticMaterial all;                        ///< of every label that has none of its own
   std::map<Label, ElasticMaterial> by_label;  ///< of single labels
-  double tolerance = 1e-4;   ///< the solver stops when the residual has fallen by this factor
-  int max_iterations = 300;  ///< of the conjugate gradients
+  SolveOptions solver;
 };
 
-struct SolveReport {
-  int iterations = 0;
-  double relative_residual = 0;  ///< |H^T D - (K + H^T H) U| / |H^T D|
-};
-
-/// Sparse matrix of 3x3 blocks in compressed rows. Blocks are floats: the stiffness is a model parameter, the
-/// solution's accuracy is governed by the residual, which is computed with the same blocks in double.
 class ElasticSystem {
  public:
   /// The sparsity pattern is that of the mesh and stays valid while its connectivity does. `around` must
@@ -38,36 +31,40 @@ class ElasticSystem {
   /// Computes K for the mesh's present coordinates and adds H^T H for the given sources (one flag a vertex).
   void assemble(const MaterialMesh& mesh, const std::vector<std::uint8_t>& is_source);
 
-  /// Solves for U by conjugate gradients with 3x3 block-Jacobi preconditioning, starting from the given U.
-  /// `load`: H^T D. Reductions are in fixed order, so the result does not depend on the thread count.
-  SolveReport solve(const std::vector<Vec3>& load, std::vector<Vec3>& u) const;
+  /// Solves for U, starting from the given U. `load`: H^T D.
+  SolveReport solve(const std::vector<Vec3>& load, std::vector<Vec3>& u) const {
+    return cbc3d::solve(matrix_, load, options_.solver, u);
+  }
 
   /// The vertices that share a cell with v, ascending, v itself among them.
-  [[nodiscard]] std::span<const VertexId> neighbours(VertexId v) const {
-    return {column_.data() + first_[v], column_.data() + first_[v + 1]};
-  }
+  [[nodiscard]] std::span<const VertexId> neighbours(VertexId v) const { return matrix_.columns(v); }
   /// y = (K + H^T H) x.
   void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
 
  private:
-  using Block = std::array<float, 9>;
+  /// What the cells add to one block: Q = sum of mu g_v g_n^T over tets, by columns, which gives
+  /// lambda / mu Q + Q^T + tr(Q) I; and apart from it what that does not give.
+  struct BlockSum {
+    Columns3 q, rest;
+  };
   /// Reused by the rows of one thread.
   struct Scratch {
     std::vector<std::uint32_t> place;  ///< of a vertex in the row; valid for the row's columns
-    std::vector<StiffnessBlock> sums;
+    std::vector<BlockSum> sums;
     std::array<Vec3, 8> points;
-    std::array<StiffnessBlock*, 8> row;
+    std::array<StiffnessBlock, 8> row;
   };
-  void assemble_upper_row(const MaterialMesh& mesh, VertexId v, bool source, Scratch& scratch);
-  void mirror_lower_row(VertexId v);
+  void assemble_row(const MaterialMesh& mesh, VertexId v, bool source, Scratch& scratch);
+  void add_tet(const MaterialMesh& mesh, CellId tet, VertexId v, Scratch& scratch) const;
+  void add_other_cell(const MaterialMesh& mesh, CellId cell, VertexId v, Scratch& scratch) const;
 
   ElasticityOptions options_;
   const VertexCells& around_;
   std::vector<LameConstants> lame_;
-  std::vector<std::uint64_t> first_;
-  std::vector<VertexId> column_;
-  std::vector<Block> blocks_;
-  std::vector<std::array<double, 9>> inverse_diagonal_;
+  float ratio_ = 0;                  ///< lambda / mu, where all materials have the same
+  bool one_ratio_ = true;            ///< and all cells are tets: BlockSum::rest stays empty
+  std::vector<TetGradients> shape_;  ///< of tets
+  BlockMatrix matrix_;
 };
 
 }  // namespace cbc3d

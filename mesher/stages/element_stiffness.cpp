@@ -111,6 +111,19 @@ LameConstants lame_constants(const ElasticMaterial& material) {
   return {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
 }
 
+TetGradients tet_gradients(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3, double mu) {
+  const Vec3 a = p1 - p0;
+  const Vec3 b = p2 - p0;
+  const Vec3 c = p3 - p0;
+  const Vec3 bc = b.cross(c);
+  const double det = a.dot(bc);
+  if (!(det > 0)) {
+    return {};
+  }
+  const double scale = std::sqrt(mu / (6 * det));
+  return {Float4(scale * bc), Float4(scale * c.cross(a)), Float4(scale * a.cross(b))};
+}
+
 void add_element_stiffness_row(std::span<const Vec3> points, std::size_t own, const LameConstants& lame,
                                std::span<StiffnessBlock* const> row) {
   static const Derivatives kHex = hex_derivatives();

@@ -11,6 +11,7 @@
 #include <array>
 #include <span>
 
+#include "mesher/core/float4.hpp"
 #include "mesher/core/vec3.hpp"
 
 namespace cbc3d {
@@ -36,5 +37,12 @@ using StiffnessBlock = std::array<double, 9>;
 /// nothing.
 void add_element_stiffness_row(std::span<const Vec3> points, std::size_t own, const LameConstants& lame,
                                std::span<StiffnessBlock* const> row);
+
+/// Gradients of the shape functions of a tet's nodes 1, 2, 3, times the root of (mu times volume): products
+/// of two of them are terms of the stiffness matrix, N/mm. Node 0's is minus their sum.
+using TetGradients = std::array<Float4, 3>;
+
+/// Zeros for a tet that is inverted or flat.
+TetGradients tet_gradients(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3, double mu);
 
 }  // namespace cbc3d
