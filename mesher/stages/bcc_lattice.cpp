@@ -1,6 +1,8 @@
 #include "mesher/stages/bcc_lattice.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -132,17 +134,105 @@ std::array<PointTet, 4> tets_across_face(const Grid& grid, const Index3& cell, s
   return tets;
 }
 
+/// Which blocks of voxels hold a labelled one.
+class OccupiedBlocks {
+ public:
+  explicit OccupiedBlocks(const LabelImage& image) {
+    const auto& size = image.frame.size;
+    for (std::size_t d = 0; d < 3; ++d) {
+      count_[d] = (size[d] + kSide - 1) / kSide;
+    }
+    occupied_.assign(index(0, 0, count_[2]), 0);
+    image.voxels.visit([&](const auto* voxels) {
+#pragma omp parallel for schedule(static)
+      for (int layer = 0; layer < count_[2]; ++layer) {
+        for (int k = layer * kSide; k < std::min(size[2], (layer + 1) * kSide); ++k) {
+          for (int j = 0; j < size[1]; ++j) {
+            mark_row(voxels + image.frame.offset(0, j, k), size[0], index(0, j / kSide, layer));
+          }
+        }
+      }
+    });
+  }
+
+  [[nodiscard]] bool any_in(const std::array<std::array<int, 2>, 3>& voxels) const {
+    const auto& [x, y, z] = voxels;
+    if (x[0] >= x[1] || y[0] >= y[1] || z[0] >= z[1]) {
+      return false;
+    }
+    for (int k = z[0] / kSide; k <= (z[1] - 1) / kSide; ++k) {
+      for (int j = y[0] / kSide; j <= (y[1] - 1) / kSide; ++j) {
+        for (int i = x[0] / kSide; i <= (x[1] - 1) / kSide; ++i) {
+          if (occupied_[index(i, j, k)] != 0) {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int kSide = 8;
+
+  [[nodiscard]] std::size_t index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(count_[0]) +
+           static_cast<std::size_t>(i);
+  }
+
+  template <typename Voxel>
+  void mark_row(const Voxel* row, int size, std::size_t first_block) {
+    for (int i = 0; i < size;) {
+      if (row[i] == kBackground) {
+        i = end_of_run(row, i, size);
+      } else {
+        occupied_[first_block + static_cast<std::size_t>(i / kSide)] = 1;
+        i = (i / kSide + 1) * kSide;
+      }
+    }
+  }
+
+  std::array<int, 3> count_{};
+  std::vector<std::uint8_t> occupied_;
+};
+
 bool holds_labelled_voxel(const LabelImage& image, const VoxelRaster& raster, const PointTet& tet) {
   bool found = false;
   raster.for_each_row(tet, [&](int j, int k, int i_begin, int i_end) {
-    if (!found) {
-      found = image.voxels.visit([&](const auto* voxels) {
-        const auto* row = voxels + image.frame.offset(0, j, k);
-        return row[i_begin] != kBackground || end_of_run(row, i_begin, i_end) < i_end;
-      });
-    }
+    found = image.voxels.visit([&](const auto* voxels) {
+      const auto* row = voxels + image.frame.offset(0, j, k);
+      return row[i_begin] != kBackground || end_of_run(row, i_begin, i_end) < i_end;
+    });
+    return found;
   });
   return found;
+}
+
+/// Numbers for what may be a node: the centres of the cells, and their corners.
+class NodeGrid {
+ public:
+  explicit NodeGrid(const Grid& grid)
+      : cells_{grid.cells, {}, {}, Mat3::identity()},
+        corners_{{grid.cells[0] + 1, grid.cells[1] + 1, grid.cells[2] + 1}, {}, {}, Mat3::identity()},
+        shift_(std::countr_zero(static_cast<unsigned>(grid.cell_units))) {}
+
+  [[nodiscard]] std::size_t size() const { return cells_.voxel_count() + corners_.voxel_count(); }
+  [[nodiscard]] std::size_t number_of(const LatticePoint& node) const {
+    const bool is_corner = (node[0] & ((1 << shift_) - 1)) == 0;
+    const ImageFrame& frame = is_corner ? corners_ : cells_;
+    return frame.offset(node[0] >> shift_, node[1] >> shift_, node[2] >> shift_) +
+           (is_corner ? cells_.voxel_count() : 0);
+  }
+
+ private:
+  ImageFrame cells_, corners_;
+  int shift_;
+};
+
+/// Sets a flag; several threads may set the same one.
+void set_flag(std::uint8_t& flag) {
+  std::atomic_ref<std::uint8_t>(flag).store(1, std::memory_order_relaxed);
 }
 
 /// Which of the 12 tets of a cell (4 a face, 3 upper faces) are wanted: bit 4 * axis + edge.
@@ -160,16 +250,42 @@ std::uint16_t select_tets(const Grid& grid, const Index3& cell, const Wanted& wa
   return static_cast<std::uint16_t>(bits);
 }
 
-/// select_tets for every cell, in parallel.
-template <typename Wanted>
-std::vector<std::uint16_t> select_everywhere(const Grid& grid, const Wanted& wanted) {
+/// select_tets for every cell that may have a wanted tet, in parallel.
+template <typename MayHave, typename Wanted>
+std::vector<std::uint16_t> select_everywhere(const Grid& grid, const MayHave& may_have,
+                                             const Wanted& wanted) {
   const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
-  std::vector<std::uint16_t> bits(cells.voxel_count());
+  std::vector<std::uint16_t> bits(cells.voxel_count(), 0);
 #pragma omp parallel for schedule(dynamic, 16)
   for (std::size_t c = 0; c < bits.size(); ++c) {
-    bits[c] = select_tets(grid, cells.index_of(c), wanted);
+    const Index3 cell = cells.index_of(c);
+    if (may_have(cell)) {
+      bits[c] = select_tets(grid, cell, wanted);
+    }
   }
   return bits;
+}
+
+/// A flag for every node of a tet that holds a labelled voxel.
+std::vector<std::uint8_t> labelled_nodes(const LabelImage& image, const Grid& grid, const NodeGrid& nodes) {
+  const VoxelRaster raster(image.frame, grid.frame);
+  const OccupiedBlocks blocks(image);
+  std::vector<std::uint8_t> labelled(nodes.size(), 0);
+  // A cell's tets lie in it and in the next ones up.
+  const auto may_have = [&](const Index3& cell) {
+    const int s = grid.cell_units;
+    return blocks.any_in(
+        raster.voxels_in_box({cell[0] * s, cell[1] * s, cell[2] * s},
+                             {cell[0] * s + 2 * s, cell[1] * s + 2 * s, cell[2] * s + 2 * s}));
+  };
+  select_everywhere(grid, may_have, [&](const PointTet& tet) {
+    const bool holds = holds_labelled_voxel(image, raster, tet);
+    for (std::size_t n = 0; n < 4 && holds; ++n) {
+      set_flag(labelled[nodes.number_of(tet[n])]);
+    }
+    return holds;
+  });
+  return labelled;
 }
 
 /// Calls action(tet) for the chosen tets, in the order of the cells.
@@ -192,27 +308,23 @@ void for_each_chosen(const Grid& grid, const std::vector<std::uint16_t>& chosen,
 
 Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& options) {
   const Grid grid = make_grid(image, options);
-  const VoxelRaster raster(image.frame, grid.frame);
-  const auto labelled =
-      select_everywhere(grid, [&](const PointTet& tet) { return holds_labelled_voxel(image, raster, tet); });
-
-  VertexTable labelled_nodes;
-  for_each_chosen(grid, labelled, [&](const PointTet& tet) {
-    for (const LatticePoint& node : tet) {
-      labelled_nodes.find_or_insert(node, 0);
-    }
-  });
-  const auto kept = select_everywhere(grid, [&](const PointTet& tet) {
+  const NodeGrid nodes(grid);
+  const std::vector<std::uint8_t> labelled = labelled_nodes(image, grid, nodes);
+  const auto everywhere = [](const Index3&) { return true; };
+  const auto kept = select_everywhere(grid, everywhere, [&](const PointTet& tet) {
     return std::any_of(tet.begin(), tet.end(),
-                       [&](const LatticePoint& node) { return labelled_nodes.find(node) != kNoVertex; });
+                       [&](const LatticePoint& node) { return labelled[nodes.number_of(node)] != 0; });
   });
 
   Lattice lattice;
   lattice.frame = grid.frame;
+  std::vector<VertexId> vertex(nodes.size(), kNoVertex);
   for_each_chosen(grid, kept, [&](const PointTet& tet) {
     RedTet red;
     for (std::size_t n = 0; n < 4; ++n) {
-      red.nodes[n] = lattice.vertex_at(tet[n]);
+      VertexId& v = vertex[nodes.number_of(tet[n])];
+      v = v == kNoVertex ? lattice.vertex_at(tet[n]) : v;
+      red.nodes[n] = v;
     }
     lattice.reds.push_back(red);
   });

@@ -1,8 +1,8 @@
 #include "mesher/stages/voxel_raster.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace cbc3d {
 namespace {
@@ -44,17 +44,29 @@ int VoxelRaster::Axis::first_at_or_after(Fixed position) const {
   return i;
 }
 
+std::array<std::array<int, 2>, 3> VoxelRaster::voxels_in_box(const LatticePoint& low,
+                                                             const LatticePoint& high) const {
+  std::array<std::array<int, 2>, 3> range{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    range[d] = {axes_[d].first_at_or_after(static_cast<Fixed>(low[d]) << kFractionBits),
+                axes_[d].first_at_or_after((static_cast<Fixed>(high[d]) << kFractionBits) + 1)};
+  }
+  return range;
+}
+
 VoxelRaster::HalfSpace VoxelRaster::half_space(const LatticePoint& a, const LatticePoint& b,
                                                const LatticePoint& c) {
   const std::array<Fixed, 3> u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   const std::array<Fixed, 3> v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
   HalfSpace side{};
   side.normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  // Lattice faces have normals of small integers: reduced, the products below stay far from overflow.
-  const Fixed divisor = std::gcd(std::gcd(side.normal[0], side.normal[1]), side.normal[2]);
+  // Lattice faces have normals of small integers times a power of two: without it, the products below stay
+  // far from overflow.
+  const auto bits = static_cast<std::uint64_t>(side.normal[0] | side.normal[1] | side.normal[2]);
+  const int shift = bits == 0 ? 0 : std::countr_zero(bits);
   side.offset = 0;
   for (std::size_t d = 0; d < 3; ++d) {
-    side.normal[d] /= divisor;
+    side.normal[d] >>= shift;
     side.offset += side.normal[d] * (static_cast<Fixed>(a[d]) << kFractionBits);
   }
   return side;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
@@ -19,9 +20,14 @@ class VoxelRaster {
  public:
   VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice);
 
-  /// Calls row(j, k, i_begin, i_end) for every run of voxels inside the positively oriented tet.
+  /// Calls row(j, k, i_begin, i_end) for every run of voxels inside the positively oriented tet. A row that
+  /// returns true ends it.
   template <typename Row>
   void for_each_row(const std::array<LatticePoint, 4>& tet, Row&& row) const;
+
+  /// The voxels whose centres lie in the box, upper sides included: begin and end of the indices by axis.
+  [[nodiscard]] std::array<std::array<int, 2>, 3> voxels_in_box(const LatticePoint& low,
+                                                                const LatticePoint& high) const;
 
  private:
   using Fixed = std::int64_t;
@@ -41,6 +47,15 @@ class VoxelRaster {
     double inverse_step = 1;
   };
 
+  template <typename Row>
+  static bool ends(Row& row, int j, int k, int i_begin, int i_end) {
+    if constexpr (std::is_same_v<std::invoke_result_t<Row&, int, int, int, int>, bool>) {
+      return row(j, k, i_begin, i_end);
+    } else {
+      row(j, k, i_begin, i_end);
+      return false;
+    }
+  }
   static HalfSpace half_space(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c);
   static std::array<HalfSpace, 4> half_spaces(const std::array<LatticePoint, 4>& tet);
   /// Narrows [low, high) in fixed-point x; returns false when the row is empty.
@@ -79,8 +94,8 @@ void VoxelRaster::for_each_row(const std::array<LatticePoint, 4>& tet, Row&& row
                    axes_[2].centre[static_cast<std::size_t>(k)], x_low, x_high)) {
         const int i_begin = axes_[0].first_at_or_after(x_low);
         const int i_end = axes_[0].first_at_or_after(x_high);
-        if (i_begin < i_end) {
-          row(j, k, i_begin, i_end);
+        if (i_begin < i_end && ends(row, j, k, i_begin, i_end)) {
+          return;
         }
       }
     }
