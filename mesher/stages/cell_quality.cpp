@@ -42,6 +42,28 @@ double max_dihedral_cosine(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   return std::copysign(std::sqrt(std::fabs(largest)), largest);
 }
 
+bool has_no_cosine_above(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double cosine) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 ad = d - a;
+  const Vec3 base = ab.cross(ac);
+  if (!(base.dot(ad) > 0) || cosine < 0) {
+    return false;
+  }
+  const Vec3 n1 = ac.cross(ad);
+  const Vec3 n2 = ad.cross(ab);
+  const Vec3 n0 = -(n1 + n2 + base);  // the faces of a closed surface add up to nothing
+  constexpr double kSure = 1 - 1e-9;  // what rounding leaves open is not said to be so
+  const double square = cosine * cosine * kSure;
+  const double s0 = n0.squared_norm();
+  const double s1 = n1.squared_norm();
+  const double s2 = n2.squared_norm();
+  const double s3 = base.squared_norm();
+  const auto within = [&](double dot, double squares) { return dot >= 0 || dot * dot <= square * squares; };
+  return within(n0.dot(n1), s0 * s1) && within(n0.dot(n2), s0 * s2) && within(n0.dot(base), s0 * s3) &&
+         within(n1.dot(n2), s1 * s2) && within(n1.dot(base), s1 * s3) && within(n2.dot(base), s2 * s3);
+}
+
 double min_dihedral_deg(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double cosine = max_dihedral_cosine(a, b, c, d);
   return cosine > 1 ? 0 : std::acos(std::fmin(1, cosine)) * 180 / std::numbers::pi;

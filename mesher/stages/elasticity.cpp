@@ -7,21 +7,26 @@
 namespace cbc3d {
 namespace {
 
-/// columns += s a b^T.
-void add_product(float s, const Float4& a, const Float4& b, Columns3& m) {
-  const Float4 sa = s * a;
-  m.c[0] += sa * spread<0>(b);
-  m.c[1] += sa * spread<1>(b);
-  m.c[2] += sa * spread<2>(b);
+/// m += a b^T.
+void add_product(const Float4& a, const Float4& b, Columns3& m) {
+  m.c[0] += a * spread<0>(b);
+  m.c[1] += a * spread<1>(b);
+  m.c[2] += a * spread<2>(b);
 }
 
-/// ratio Q + Q^T + tr(Q) I + rest.
-Columns3 stiffness_of(float ratio, const Columns3& q, const Columns3& rest) {
+void add(const Columns3& what, Columns3& to) {
+  for (int i = 0; i < 3; ++i) {
+    to.c[i] += what.c[i];
+  }
+}
+
+/// ratio Q + Q^T + tr(Q) I.
+Columns3 stiffness_of(float ratio, const Columns3& q) {
   const float trace = q.c[0][0] + q.c[1][1] + q.c[2][2];
   Columns3 k;
   transpose(q.c, k.c);
   for (int i = 0; i < 3; ++i) {
-    k.c[i] += ratio * q.c[i] + rest.c[i];
+    k.c[i] += ratio * q.c[i];
   }
   k.c[0] += Float4(trace, 0, 0, 0);
   k.c[1] += Float4(0, trace, 0, 0);
@@ -64,7 +69,8 @@ void ElasticSystem::assemble(const MaterialMesh& mesh, const std::vector<std::ui
 /// sum of zero, for a mesh that is moved as a whole has no force in it.
 void ElasticSystem::assemble_row(const MaterialMesh& mesh, VertexId v, bool source, Scratch& scratch) {
   const auto columns = matrix_.columns(v);
-  scratch.sums.assign(columns.size(), {});
+  scratch.q.assign(columns.size(), {});
+  scratch.rest.assign(one_ratio_ ? 0 : columns.size(), {});
   for (std::size_t b = 0; b < columns.size(); ++b) {
     scratch.place[columns[b]] = static_cast<std::uint32_t>(b);
   }
@@ -78,7 +84,10 @@ void ElasticSystem::assemble_row(const MaterialMesh& mesh, VertexId v, bool sour
   Columns3 diagonal;
   for (std::size_t b = 0; b < columns.size(); ++b) {
     if (columns[b] != v) {
-      const Columns3 block = stiffness_of(ratio_, scratch.sums[b].q, scratch.sums[b].rest);
+      Columns3 block = stiffness_of(ratio_, scratch.q[b]);
+      if (!one_ratio_) {
+        add(scratch.rest[b], block);
+      }
       matrix_.set_block(v, b, block);
       for (int i = 0; i < 3; ++i) {
         diagonal.c[i] -= block.c[i];
@@ -98,14 +107,17 @@ void ElasticSystem::add_tet(const MaterialMesh& mesh, CellId tet, VertexId v, Sc
   const auto& nodes = mesh.tets[tet];
   const auto& [g1, g2, g3] = shape_[tet];
   const std::array<Float4, 4> g = {Float4() - (g1 + g2 + g3), g1, g2, g3};
-  const auto own = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
+  const std::size_t own = nodes[0] == v ? 0 : nodes[1] == v ? 1 : nodes[2] == v ? 2 : 3;
   for (std::size_t n = 1; n < 4; ++n) {
     const std::size_t other = (own + n) & 3U;
-    BlockSum& sum = scratch.sums[scratch.place[nodes[other]]];
-    add_product(1, g[own], g[other], sum.q);
-    if (!one_ratio_) {
-      const LameConstants& lame = lame_[mesh.materials[tet]];
-      add_product(static_cast<float>(lame.lambda / lame.mu), g[own], g[other], sum.rest);
+    add_product(g[own], g[other], scratch.q[scratch.place[nodes[other]]]);
+  }
+  if (!one_ratio_) {
+    const LameConstants& lame = lame_[mesh.materials[tet]];
+    const Float4 scaled = static_cast<float>(lame.lambda / lame.mu) * g[own];
+    for (std::size_t n = 1; n < 4; ++n) {
+      const std::size_t other = (own + n) & 3U;
+      add_product(scaled, g[other], scratch.rest[scratch.place[nodes[other]]]);
     }
   }
 }
@@ -125,7 +137,7 @@ void ElasticSystem::add_other_cell(const MaterialMesh& mesh, CellId cell, Vertex
                             {row.data(), nodes.size()});
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const StiffnessBlock& k = scratch.row[n];
-    Columns3& rest = scratch.sums[scratch.place[nodes[n]]].rest;
+    Columns3& rest = scratch.rest[scratch.place[nodes[n]]];
     rest.c[0] += Float4(Vec3{k[0], k[3], k[6]});
     rest.c[1] += Float4(Vec3{k[1], k[4], k[7]});
     rest.c[2] += Float4(Vec3{k[2], k[5], k[8]});

@@ -42,15 +42,12 @@ class ElasticSystem {
   void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
 
  private:
-  /// What the cells add to one block: Q = sum of mu g_v g_n^T over tets, by columns, which gives
-  /// lambda / mu Q + Q^T + tr(Q) I; and apart from it what that does not give.
-  struct BlockSum {
-    Columns3 q, rest;
-  };
   /// Reused by the rows of one thread.
   struct Scratch {
     std::vector<std::uint32_t> place;  ///< of a vertex in the row; valid for the row's columns
-    std::vector<BlockSum> sums;
+    /// By block: Q = sum of mu g_v g_n^T over tets, which gives ratio Q + Q^T + tr(Q) I.
+    std::vector<Columns3> q;
+    std::vector<Columns3> rest;  ///< by block, unless one_ratio_: what the other terms of Q do not give
     std::array<Vec3, 8> points;
     std::array<StiffnessBlock, 8> row;
   };
@@ -61,8 +58,8 @@ class ElasticSystem {
   ElasticityOptions options_;
   const VertexCells& around_;
   std::vector<LameConstants> lame_;
-  float ratio_ = 0;                  ///< lambda / mu, where all materials have the same
-  bool one_ratio_ = true;            ///< and all cells are tets: BlockSum::rest stays empty
+  bool one_ratio_ = true;            ///< all materials have one ratio lambda / mu, and all cells are tets
+  float ratio_ = 0;                  ///< that ratio; 0 without one
   std::vector<TetGradients> shape_;  ///< of tets
   BlockMatrix matrix_;
 };

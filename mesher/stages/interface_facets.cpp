@@ -27,12 +27,35 @@ const CellFacets& facets_of(std::size_t node_count) {
   return node_count == 4 ? kTetFacets : node_count == 5 ? kPyramidFacets : kHexFacets;
 }
 
-/// A facet seen from one of its cells; `key` are its nodes ascending, kNoVertex last for a triangle.
+/// A facet of one of the cells at its smallest node. `key`: its second and third smallest node, which with
+/// the smallest tell it from every other facet of a conforming mesh.
 struct Facet {
-  std::array<VertexId, 4> key;
-  std::array<VertexId, 4> nodes;
-  MaterialId material;
+  std::uint64_t key;
+  CellId cell;
+  std::uint8_t number;  ///< among the cell's facets
 };
+
+/// The key of a facet; 0 when v is not its smallest node.
+std::uint64_t key_of(std::span<const VertexId> cell, const std::array<std::uint8_t, 4>& facet, VertexId v) {
+  bool touches = false;
+  VertexId second = kNoVertex;
+  VertexId third = kNoVertex;
+  for (std::size_t n = 0; n < 4 && facet[n] != kNone; ++n) {
+    const VertexId node = cell[facet[n]];
+    if (node < v) {
+      return 0;
+    }
+    if (node == v) {
+      touches = true;
+    } else if (node < second) {
+      third = second;
+      second = node;
+    } else if (node < third) {
+      third = node;
+    }
+  }
+  return touches ? std::uint64_t{second} << 32U | third : 0;
+}
 
 /// The facets whose smallest node is v, sorted by their nodes.
 void collect_facets(const MaterialMesh& mesh, std::span<const CellId> cells, VertexId v,
@@ -42,30 +65,26 @@ void collect_facets(const MaterialMesh& mesh, std::span<const CellId> cells, Ver
     const auto nodes = mesh.nodes_of(c);
     const CellFacets& kind = facets_of(nodes.size());
     for (unsigned f = 0; f < kind.count; ++f) {
-      Facet facet{};
-      bool touches = false;
-      bool smallest = true;
-      for (std::size_t n = 0; n < 4; ++n) {
-        const std::uint8_t local = kind.nodes[f][n];
-        facet.nodes[n] = local == kNone ? kNoVertex : nodes[local];
-        touches |= facet.nodes[n] == v;
-        smallest &= facet.nodes[n] >= v;
-      }
-      if (touches && smallest) {
-        facet.key = facet.nodes;
-        std::sort(facet.key.begin(), facet.key.end());
-        facet.material = mesh.material_of(c);
-        facets.push_back(facet);
+      if (const std::uint64_t key = key_of(nodes, kind.nodes[f], v)) {
+        facets.push_back({key, c, static_cast<std::uint8_t>(f)});
       }
     }
   }
-  std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.key < b.key; });
+  std::sort(facets.begin(), facets.end(),
+            [](const Facet& a, const Facet& b) { return a.key != b.key ? a.key < b.key : a.cell < b.cell; });
 }
 
 /// A facet of a cell of `inside` with `across` on its other side, turned from the lower material to the
 /// higher.
-InterfaceFacet turned(const Facet& facet, MaterialId inside, MaterialId across) {
-  InterfaceFacet out = {facet.nodes, std::min(inside, across), std::max(inside, across)};
+InterfaceFacet turned(const MaterialMesh& mesh, const Facet& facet, MaterialId inside, MaterialId across) {
+  const auto cell = mesh.nodes_of(facet.cell);
+  const auto& local = facets_of(cell.size()).nodes[facet.number];
+  InterfaceFacet out{};
+  for (std::size_t n = 0; n < 4; ++n) {
+    out.nodes[n] = local[n] == kNone ? kNoVertex : cell[local[n]];
+  }
+  out.lower = std::min(inside, across);
+  out.higher = std::max(inside, across);
   if (inside > across) {
     std::swap(out.nodes[0], out.nodes[2]);  // reverses triangles and quadrilaterals alike
   }
@@ -73,19 +92,20 @@ InterfaceFacet turned(const Facet& facet, MaterialId inside, MaterialId across) 
 }
 
 /// Keeps of sorted facets those that part two materials. False when a facet occurs more than twice.
-bool keep_interfaces(const std::vector<Facet>& facets, std::vector<InterfaceFacet>& kept) {
+bool keep_interfaces(const MaterialMesh& mesh, const std::vector<Facet>& facets,
+                     std::vector<InterfaceFacet>& kept) {
   for (std::size_t f = 0; f < facets.size();) {
     std::size_t next = f + 1;
     while (next < facets.size() && facets[next].key == facets[f].key) {
       ++next;
     }
-    const MaterialId inside = facets[f].material;
-    const MaterialId across = next - f == 1 ? kBackground : facets[f + 1].material;
+    const MaterialId inside = mesh.material_of(facets[f].cell);
+    const MaterialId across = next - f == 1 ? kBackground : mesh.material_of(facets[f + 1].cell);
     if (next - f > 2) {
       return false;
     }
     if (inside != across) {
-      kept.push_back(turned(facets[f], inside, across));
+      kept.push_back(turned(mesh, facets[f], inside, across));
     }
     f = next;
   }
@@ -107,7 +127,7 @@ std::vector<InterfaceFacet> interface_facets(const MaterialMesh& mesh, const Ver
       for (std::size_t v = c * kChunk; v < std::min(count, (c + 1) * kChunk); ++v) {
         const auto vertex = static_cast<VertexId>(v);
         collect_facets(mesh, around.of(vertex), vertex, facets);
-        if (!keep_interfaces(facets, chunks[c])) {
+        if (!keep_interfaces(mesh, facets, chunks[c])) {
           conforming = false;
         }
       }

@@ -43,6 +43,12 @@ double QualityControl::margin(CellId cell, const std::vector<Vec3>& points) cons
 
 bool QualityControl::fails(CellId cell, const std::vector<Vec3>& before,
                            const std::vector<Vec3>& after) const {
+  if (cell < mesh_.tets.size()) {
+    const auto& n = mesh_.tets[cell];
+    if (has_no_cosine_above(after[n[0]], after[n[1]], after[n[2]], after[n[3]], max_cosine_)) {
+      return false;
+    }
+  }
   const double now = margin(cell, after);
   return now < 0 && now < margin(cell, before);
 }

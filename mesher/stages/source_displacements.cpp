@@ -1,6 +1,7 @@
 #include "mesher/stages/source_displacements.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -15,6 +16,17 @@ struct LocalSurface {
   Vec3 normal;         // from the lower material to the higher, zero unless two-sided
   double edge_mm = 0;  // mean length of the surface edges at the source
 };
+
+/// Sums of the outward normals of open faces, by TargetPoint::faces.
+constexpr std::array<Vec3, 64> kOpenSides = [] {
+  std::array<Vec3, 64> sums{};
+  for (unsigned faces = 0; faces < 64; ++faces) {
+    sums[faces] = {double(faces >> 1U & 1U) - double(faces & 1U),
+                   double(faces >> 3U & 1U) - double(faces >> 2U & 1U),
+                   double(faces >> 5U & 1U) - double(faces >> 4U & 1U)};
+  }
+  return sums;
+}();
 
 class TargetSearch {
  public:
@@ -168,34 +180,42 @@ class TargetSearch {
   template <typename Visit>
   void for_targets_near(const Vec3& position, double radius, const Visit& visit) const {
     const ImageFrame& frame = points_.frame;
-    const auto range = [&](int axis, double half) {
+    const auto range = [&](int axis) {
       const double spacing = frame.spacing_mm[axis];
       const int size = frame.size[static_cast<std::size_t>(axis)];
-      return std::pair{std::max(0, static_cast<int>(std::ceil((position[axis] - half) / spacing))),
-                       std::min(size - 1, static_cast<int>(std::floor((position[axis] + half) / spacing)))};
+      return std::pair{std::max(0, static_cast<int>(std::ceil((position[axis] - radius) / spacing))),
+                       std::min(size - 1, static_cast<int>(std::floor((position[axis] + radius) / spacing)))};
     };
-    const auto [k_first, k_last] = range(2, radius);
-    const auto [j_first, j_last] = range(1, radius);
+    const auto [i_first, i_last] = range(0);
+    const auto [j_first, j_last] = range(1);
+    const auto [k_first, k_last] = range(2);
     for (int k = k_first; k <= k_last; ++k) {
       for (int j = j_first; j <= j_last; ++j) {
-        const double dy = j * frame.spacing_mm.y - position.y;
-        const double dz = k * frame.spacing_mm.z - position.z;
-        const double left = radius * radius - dy * dy - dz * dz;
-        if (left < 0) {
-          continue;
-        }
-        const auto [i_first, i_last] = range(0, std::sqrt(left));
         const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
                                 static_cast<std::size_t>(j);
         const TargetPoint* const row_end = points_.targets.targets.data() + points_.targets.first[row + 1];
         const TargetPoint* t =
-            std::lower_bound(points_.targets.targets.data() + points_.targets.first[row], row_end, i_first,
-                             [](const TargetPoint& a, int i) { return a.i < i; });
+            first_from(points_.targets.targets.data() + points_.targets.first[row], row_end, i_first);
         for (; t != row_end && t->i <= i_last; ++t) {
-          visit(*t, frame.local_centre(t->i, j, k));
+          const Vec3 centre = frame.local_centre(t->i, j, k);
+          if ((centre - position).squared_norm() <= radius * radius) {
+            visit(*t, centre);
+          }
         }
       }
     }
+  }
+
+  /// The first target of a row whose index is at least i. Most rows have none or a few.
+  static const TargetPoint* first_from(const TargetPoint* t, const TargetPoint* row_end, int i) {
+    constexpr std::ptrdiff_t kFew = 8;
+    if (row_end - t > kFew) {
+      return std::lower_bound(t, row_end, i, [](const TargetPoint& a, int b) { return a.i < b; });
+    }
+    while (t != row_end && t->i < i) {
+      ++t;
+    }
+    return t;
   }
 
   /// Calls pull(vector, weight) for what a target offers: its centre, or its faces as far as they look the
@@ -205,26 +225,23 @@ class TargetSearch {
              const Vec3& centre, const Pull& pull) const {
     const Vec3 outward = target.lower_side ? surface.normal : -surface.normal;
     const Vec3 to_centre = centre - surface.position;
-    double facing = 0;
-    for (unsigned f = 0; f < 6; ++f) {
-      if ((target.faces >> f & 1U) != 0) {
-        const int axis = static_cast<int>(f / 2);
-        const double side = f % 2 == 0 ? -1 : 1;
-        const double along = side * outward[axis];
-        facing += along;
-        if (options_.target_position == TargetPosition::voxel_faces) {
-          const double weight = !source.two_sided ? 1 : options_.reject_outliers ? along : 1;
-          Vec3 to_face = to_centre;
-          to_face[axis] += 0.5 * side * points_.frame.spacing_mm[axis];
-          if (weight > 0) {
-            pull(to_face, weight);
-          }
-        }
+    const bool judged = source.two_sided && options_.reject_outliers;
+    if (options_.target_position == TargetPosition::voxel_centre) {
+      if (!judged || !(outward.dot(kOpenSides[target.faces & 63U]) < 0)) {
+        pull(to_centre, 1.0);
       }
+      return;
     }
-    const bool outlier = source.two_sided && options_.reject_outliers && facing < 0;
-    if (options_.target_position == TargetPosition::voxel_centre && !outlier) {
-      pull(to_centre, 1.0);
+    for (unsigned faces = target.faces; faces != 0; faces &= faces - 1) {
+      const int f = std::countr_zero(faces);
+      const int axis = f / 2;
+      const double side = f % 2 == 0 ? -1 : 1;
+      const double weight = judged ? side * outward[axis] : 1;
+      if (weight > 0) {
+        Vec3 to_face = to_centre;
+        to_face[axis] += 0.5 * side * points_.frame.spacing_mm[axis];
+        pull(to_face, weight);
+      }
     }
   }
 
