@@ -36,7 +36,8 @@ double max_dihedral_cosine(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = i + 1; j < 4; ++j) {
       const double dot = -n[i].dot(n[j]);
-      largest = std::fmax(largest, dot * std::fabs(dot) / (square[i] * square[j]));
+      const double signed_square = dot * std::fabs(dot) / (square[i] * square[j]);
+      largest = signed_square > largest ? signed_square : largest;  // std::fmax is a call
     }
   }
   return std::copysign(std::sqrt(std::fabs(largest)), largest);

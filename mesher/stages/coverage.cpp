@@ -11,6 +11,7 @@ std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
                                             const std::vector<std::array<TetId, 4>>& neighbours,
                                             const std::vector<MaterialId>& materials) {
   std::vector<SurfaceVertex> found;
+  std::vector<MaterialId> last;  // found of a vertex: most are of one material, and seen from many tets
   for (std::size_t t = 0; t < tets.size(); ++t) {
     if (materials[t] == kBackground) {
       continue;
@@ -19,7 +20,14 @@ std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
       const TetId across = neighbours[t][n];
       if (across == kNoTet || materials[across] != materials[t]) {
         for (const std::uint8_t corner : kTetFace[n]) {
-          found.push_back({tets[t][corner], materials[t]});
+          const VertexId v = tets[t][corner];
+          if (v >= last.size()) {
+            last.resize(v + 1 + v / 2, kBackground);
+          }
+          if (last[v] != materials[t]) {
+            last[v] = materials[t];
+            found.push_back({v, materials[t]});
+          }
         }
       }
     }

@@ -37,6 +37,16 @@ class BoundaryCoverage {
   /// True when one of the voxels [i_begin, i_end) of row (j, k) is uncovered or a face neighbour, of another
   /// material, of one that is: an interface can only appear between the two where the lattice resolves both.
   [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const;
+  /// Calls f(centre in local mm) for each of those voxels.
+  template <typename F>
+  void for_each_wanted(const F& f) {
+    const auto tell = [&](std::size_t v) {
+      const Index3 at = image_.frame.index_of(v);
+      f(image_.frame.local_centre(at[0], at[1], at[2]));
+    };
+    uncovered_.for_each(0, image_.frame.voxel_count(), tell);
+    across_.for_each(0, image_.frame.voxel_count(), tell);
+  }
   /// Number of boundary voxels without a surface vertex nearby.
   [[nodiscard]] std::size_t uncovered_count() const;
 

@@ -38,9 +38,11 @@ class Refiner {
     }
     if (options.max_distance_mm > 0 && options.each_interface) {
       interfaces_.emplace(image);
-      places_.emplace(image.frame, lattice.frame);
     } else if (options.max_distance_mm > 0) {
       coverage_.emplace(image);
+    }
+    if (interfaces_ || coverage_) {
+      places_.emplace(image.frame, lattice.frame);
     }
   }
 
@@ -69,6 +71,7 @@ class Refiner {
     follower_.rebuild(mesh, number);
     judged_ = renumbered(judged_, number, mesh.tets.size(), kNotJudged);
     centroid_material_ = renumbered(centroid_material_, number, mesh.tets.size(), kBackground);
+    pure_ = renumbered(pure_, number, mesh.tets.size(), std::uint8_t{0});
     append_local_points(lattice_, points_);
     touched_.resize(points_.size(), 1);
     mesh.unsure.resize(points_.size(), 1);
@@ -224,6 +227,7 @@ class Refiner {
       counts.common[static_cast<std::size_t>(before)] -= common[0];
     }
     if (now != kNotJudged) {
+      pure_[t] = inside == common[1] ? 1 : 0;
       counts.inside[static_cast<std::size_t>(now)] += inside;
       counts.common[static_cast<std::size_t>(now)] += common[1];
     }
@@ -241,14 +245,13 @@ class Refiner {
         0) {
       return;
     }
-    if (interfaces_) {
-      places_->clear();
-      interfaces_->for_each_wanted([&](const Vec3& centre) { places_->add(centre); });
-    }
+    places_->clear();
+    const auto add = [&](const Vec3& centre) { places_->add(centre); };
+    interfaces_ ? interfaces_->for_each_wanted(add) : coverage_->for_each_wanted(add);
 #pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t r = 0; r < lattice_.reds.size(); ++r) {
       const RedTet& red = lattice_.reds[r];
-      if (marked_[r] == 0 && (!interfaces_ || places_->may_hold(lattice_.points[red.nodes[0]], red.level))) {
+      if (marked_[r] == 0 && places_->may_hold(lattice_.points[red.nodes[0]], red.level)) {
         mark_if_uncovered(r);
       }
     }
@@ -259,7 +262,8 @@ class Refiner {
     for (TetId t = follower_.first(r); t < follower_.first(r + 1) && !uncovered; ++t) {
       if (!is_changed(t)) {
         raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-          uncovered = uncovered || wants_refinement(j, k, i_begin, i_end);
+          uncovered = wants_refinement(j, k, i_begin, i_end);
+          return uncovered;
         });
       }
     }
@@ -466,17 +470,18 @@ class Refiner {
     const CandidateMesh& mesh = result_.mesh;
 #pragma omp parallel for schedule(dynamic, 512)
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      if (marked_[mesh.tets.parent[t]] != 0 || !may_split_for_fidelity(t)) {
+      if (pure_[t] != 0 || marked_[mesh.tets.parent[t]] != 0 || !may_split_for_fidelity(t)) {
         continue;
       }
       const MaterialId own = mesh.materials[t];
       bool misjudged = false;
       raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-        misjudged = misjudged || image_.voxels.visit([&](const auto* voxels) {
+        misjudged = image_.voxels.visit([&](const auto* voxels) {
           const auto* row = voxels + image_.frame.offset(0, j, k);
           return std::any_of(row + i_begin, row + i_end,
                              [&](MaterialId m) { return m != own && (unmet[m] != 0 || unmet[own] != 0); });
         });
+        return misjudged;
       });
       if (misjudged) {
         mark_tet(t);
@@ -539,11 +544,12 @@ class Refiner {
   ImageBoundary boundary_;
   std::optional<BoundaryCoverage> coverage_;
   std::optional<InterfaceCoverage> interfaces_;
-  std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ wants
+  std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ or coverage_ wants
   std::vector<MaterialSet> sets_;        // of interfaces_' last update
   LatticeFollower follower_;
   static constexpr std::int32_t kNotJudged = -1;
   std::vector<std::int32_t> judged_;          // the material each tet had when it was last judged
+  std::vector<std::uint8_t> pure_;            // 1: all voxels in the tet were then of its material
   std::vector<std::uint8_t> touched_;         // vertices of tets that changed since
   std::vector<std::uint64_t> stray_verdict_;  // of vertices, see is_stray
   std::vector<std::uint32_t> rank_;

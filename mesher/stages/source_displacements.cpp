@@ -190,16 +190,22 @@ class TargetSearch {
     const auto [j_first, j_last] = range(1);
     const auto [k_first, k_last] = range(2);
     for (int k = k_first; k <= k_last; ++k) {
+      const double z = k * frame.spacing_mm.z;
+      const double left_z = radius * radius - (z - position.z) * (z - position.z);
       for (int j = j_first; j <= j_last; ++j) {
+        const double y = j * frame.spacing_mm.y;
+        const double left = left_z - (y - position.y) * (y - position.y);
         const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
                                 static_cast<std::size_t>(j);
         const TargetPoint* const row_end = points_.targets.targets.data() + points_.targets.first[row + 1];
-        const TargetPoint* t =
-            first_from(points_.targets.targets.data() + points_.targets.first[row], row_end, i_first);
-        for (; t != row_end && t->i <= i_last; ++t) {
-          const Vec3 centre = frame.local_centre(t->i, j, k);
-          if ((centre - position).squared_norm() <= radius * radius) {
-            visit(*t, centre);
+        const TargetPoint* t = points_.targets.targets.data() + points_.targets.first[row];
+        if (t == row_end || left < 0) {
+          continue;
+        }
+        for (t = first_from(t, row_end, i_first); t != row_end && t->i <= i_last; ++t) {
+          const double x = t->i * frame.spacing_mm.x;
+          if ((x - position.x) * (x - position.x) <= left) {
+            visit(*t, Vec3{x, y, z});
           }
         }
       }
