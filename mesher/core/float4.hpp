@@ -11,9 +11,9 @@ namespace cbc3d {
 
 struct alignas(16) Float4 {
   using Lanes = float __attribute__((vector_size(16)));
-  Lanes lanes{};
+  Lanes lanes;
 
-  Float4() = default;
+  Float4() = default;  ///< as with a float, `Float4 a;` is not set and `Float4 a{};` is zeros
   explicit Float4(Lanes l) : lanes(l) {}
   explicit Float4(float all) : lanes{all, all, all, all} {}
   Float4(float x, float y, float z, float w) : lanes{x, y, z, w} {}

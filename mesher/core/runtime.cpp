@@ -1,6 +1,7 @@
 #include "mesher/core/runtime.hpp"
 
 #include <itkMultiThreaderBase.h>
+#include <malloc.h>
 #include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -38,6 +39,14 @@ double process_cpu_seconds() {
 
 std::int64_t process_peak_rss_bytes() {
   return static_cast<std::int64_t>(self_usage().ru_maxrss) * 1024;
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kLargest = 32 << 20;  // that glibc takes
+  ::mallopt(M_MMAP_THRESHOLD, kLargest);
+  ::mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
+#endif
 }
 
 void let_waiting_threads_sleep(char** argv) {

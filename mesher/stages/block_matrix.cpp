@@ -240,12 +240,14 @@ BlockMatrix::BlockMatrix(const MaterialMesh& mesh, const VertexCells& around) {
               column_.begin() + static_cast<std::ptrdiff_t>(first_[c * kChunk]));
     columns[c] = {};
   }
-  values_.resize(9 * column_.size() + 1);
+  // Not filled: whatever thread sets a row first gets its memory.
+  values_ = std::make_unique_for_overwrite<float[]>(9 * column_.size() + 1);
+  values_[9 * column_.size()] = 0;
 }
 
 Float4 BlockMatrix::row_times(VertexId v, const std::vector<Float4>& x) const {
-  Float4 sum[3];
-  const float* block = values_.data() + 9 * first_[v];
+  Float4 sum[3]{};
+  const float* block = values_.get() + 9 * first_[v];
   for (const VertexId column : columns(v)) {
     const Float4& at = x[column];
     sum[0] += spread<0>(at) * Float4::load(block);

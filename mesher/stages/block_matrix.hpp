@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,7 @@ Columns3 inverse_of(const Columns3& m);
 
 class BlockMatrix {
  public:
-  /// Zeros, with a block for every pair of vertices that share a cell and for each vertex itself.
+  /// A block for every pair of vertices that share a cell and for each vertex itself, all of them to be set.
   BlockMatrix(const MaterialMesh& mesh, const VertexCells& around);
 
   [[nodiscard]] std::size_t row_count() const { return inverse_diagonal_.size(); }
@@ -39,7 +40,7 @@ class BlockMatrix {
   }
   /// Sets the n-th block of row v.
   void set_block(VertexId v, std::size_t n, const Columns3& block) {
-    float* const to = values_.data() + 9 * (first_[v] + n);
+    float* const to = values_.get() + 9 * (first_[v] + n);
     block.c[0].store3(to);
     block.c[1].store3(to + 3);
     block.c[2].store3(to + 6);
@@ -56,7 +57,7 @@ class BlockMatrix {
  private:
   std::vector<std::uint64_t> first_;
   std::vector<VertexId> column_;
-  std::vector<float> values_;  ///< nine a block, by columns; one more, for the last is read as four
+  std::unique_ptr<float[]> values_;  ///< nine a block, by columns; one more, for the last is read as four
   std::vector<Columns3> inverse_diagonal_;
 };
 

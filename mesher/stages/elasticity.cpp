@@ -38,7 +38,11 @@ Columns3 stiffness_of(float ratio, const Columns3& q) {
 
 ElasticSystem::ElasticSystem(const MaterialMesh& mesh, const VertexCells& around,
                              const std::vector<ElasticMaterial>& materials, const ElasticityOptions& options)
-    : options_(options), around_(around), shape_(mesh.tets.size()), matrix_(mesh, around) {
+    : options_(options),
+      around_(around),
+      tet_count_(mesh.tets.size()),
+      shape_(std::make_unique_for_overwrite<TetGradients[]>(tet_count_)),
+      matrix_(mesh, around) {
   std::transform(materials.begin(), materials.end(), std::back_inserter(lame_), lame_constants);
   const double poisson = materials.empty() ? 0 : materials[0].poisson;
   one_ratio_ = mesh.tets.size() == mesh.cell_count() &&
@@ -51,7 +55,7 @@ void ElasticSystem::assemble(const MaterialMesh& mesh, const std::vector<std::ui
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
-    for (std::size_t t = 0; t < shape_.size(); ++t) {
+    for (std::size_t t = 0; t < tet_count_; ++t) {
       const auto& n = mesh.tets[t];
       shape_[t] = tet_gradients(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]],
                                 lame_[mesh.materials[t]].mu);
@@ -75,13 +79,13 @@ void ElasticSystem::assemble_row(const MaterialMesh& mesh, VertexId v, bool sour
     scratch.place[columns[b]] = static_cast<std::uint32_t>(b);
   }
   for (const CellId c : around_.of(v)) {
-    if (c < shape_.size()) {
+    if (c < tet_count_) {
       add_tet(mesh, c, v, scratch);
     } else {
       add_other_cell(mesh, c, v, scratch);
     }
   }
-  Columns3 diagonal;
+  Columns3 diagonal{};
   for (std::size_t b = 0; b < columns.size(); ++b) {
     if (columns[b] != v) {
       Columns3 block = stiffness_of(ratio_, scratch.q[b]);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "mesher/stages/block_matrix.hpp"
@@ -58,9 +59,10 @@ class ElasticSystem {
   ElasticityOptions options_;
   const VertexCells& around_;
   std::vector<LameConstants> lame_;
-  bool one_ratio_ = true;            ///< all materials have one ratio lambda / mu, and all cells are tets
-  float ratio_ = 0;                  ///< that ratio; 0 without one
-  std::vector<TetGradients> shape_;  ///< of tets
+  bool one_ratio_ = true;  ///< all materials have one ratio lambda / mu, and all cells are tets
+  float ratio_ = 0;        ///< that ratio; 0 without one
+  std::size_t tet_count_;
+  std::unique_ptr<TetGradients[]> shape_;  ///< of tets
   BlockMatrix matrix_;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
 #include "mesher/stages/cell_quality.hpp"
 
@@ -53,16 +52,18 @@ bool QualityControl::fails(CellId cell, const std::vector<Vec3>& before,
   return now < 0 && now < margin(cell, before);
 }
 
-std::vector<CellId> QualityControl::failing(const std::vector<Vec3>& before,
-                                            const std::vector<Vec3>& after) const {
-  constexpr std::size_t kChunk = 8192;
-  const std::size_t count = mesh_.cell_count();
+template <typename CellOf>
+std::vector<CellId> QualityControl::failing_among(std::size_t count, const CellOf& cell_of,
+                                                  const std::vector<Vec3>& before,
+                                                  const std::vector<Vec3>& after) const {
+  constexpr std::size_t kChunk = 2048;
   std::vector<std::vector<CellId>> chunks((count + kChunk - 1) / kChunk);
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t c = 0; c < chunks.size(); ++c) {
-    for (std::size_t cell = c * kChunk; cell < std::min(count, (c + 1) * kChunk); ++cell) {
-      if (fails(static_cast<CellId>(cell), before, after)) {
-        chunks[c].push_back(static_cast<CellId>(cell));
+    for (std::size_t n = c * kChunk; n < std::min(count, (c + 1) * kChunk); ++n) {
+      const CellId cell = cell_of(n);
+      if (fails(cell, before, after)) {
+        chunks[c].push_back(cell);
       }
     }
   }
@@ -73,11 +74,18 @@ std::vector<CellId> QualityControl::failing(const std::vector<Vec3>& before,
   return all;
 }
 
+std::vector<CellId> QualityControl::failing(const std::vector<Vec3>& before,
+                                            const std::vector<Vec3>& after) const {
+  return failing_among(
+      mesh_.cell_count(), [](std::size_t n) { return static_cast<CellId>(n); }, before, after);
+}
+
 std::size_t QualityControl::hold_back(const std::vector<Vec3>& before, std::vector<CellId> failing,
                                       std::vector<Vec3>& displacement, std::vector<Vec3>& after) const {
-  std::unordered_map<VertexId, int> halvings;
+  std::vector<std::uint8_t> halvings(before.size(), 0);
   std::vector<VertexId> vertices;
   std::vector<CellId> cells;
+  std::size_t held = 0;
   while (!failing.empty()) {
     vertices.clear();
     for (const CellId c : failing) {
@@ -87,16 +95,17 @@ std::size_t QualityControl::hold_back(const std::vector<Vec3>& before, std::vect
     sort_unique(vertices);
     cells.clear();
     for (const VertexId v : vertices) {
-      displacement[v] *= ++halvings[v] <= kHalvings ? 0.5 : 0.0;
+      held += halvings[v] == 0 ? 1 : 0;
+      halvings[v] = static_cast<std::uint8_t>(std::min(halvings[v] + 1, kHalvings + 1));
+      displacement[v] *= halvings[v] <= kHalvings ? 0.5 : 0.0;
       after[v] = before[v] + displacement[v];
       cells.insert(cells.end(), around_.of(v).begin(), around_.of(v).end());
     }
     sort_unique(cells);
-    failing.clear();
-    std::copy_if(cells.begin(), cells.end(), std::back_inserter(failing),
-                 [&](CellId c) { return fails(c, before, after); });
+    failing = failing_among(
+        cells.size(), [&](std::size_t n) { return cells[n]; }, before, after);
   }
-  return halvings.size();
+  return held;
 }
 
 }  // namespace cbc3d

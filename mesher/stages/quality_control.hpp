@@ -31,6 +31,11 @@ class QualityControl {
 
  private:
   [[nodiscard]] double margin(CellId cell, const std::vector<Vec3>& points) const;
+  /// The failing ones of cell_of(0) ... cell_of(count - 1), in that order.
+  template <typename CellOf>
+  [[nodiscard]] std::vector<CellId> failing_among(std::size_t count, const CellOf& cell_of,
+                                                  const std::vector<Vec3>& before,
+                                                  const std::vector<Vec3>& after) const;
   [[nodiscard]] bool fails(CellId cell, const std::vector<Vec3>& before,
                            const std::vector<Vec3>& after) const;
 
