@@ -225,6 +225,23 @@ class NodeGrid {
            (is_corner ? cells_.voxel_count() : 0);
   }
 
+  /// True when a node of the tets between this cell and the next ones up is flagged.
+  [[nodiscard]] bool has_flagged_node(const std::vector<std::uint8_t>& flags, const Index3& cell) const {
+    unsigned found = flags[cells_.offset(cell[0], cell[1], cell[2])];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Index3 next = cell;
+      if (++next[axis] < cells_.size[axis]) {
+        found |= flags[cells_.offset(next[0], next[1], next[2])];
+      }
+    }
+    for (int corner = 1; corner < 8; ++corner) {
+      const std::size_t c =
+          corners_.offset(cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2));
+      found |= flags[cells_.voxel_count() + c];
+    }
+    return found != 0;
+  }
+
  private:
   ImageFrame cells_, corners_;
   int shift_;
@@ -310,8 +327,8 @@ Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& opti
   const Grid grid = make_grid(image, options);
   const NodeGrid nodes(grid);
   const std::vector<std::uint8_t> labelled = labelled_nodes(image, grid, nodes);
-  const auto everywhere = [](const Index3&) { return true; };
-  const auto kept = select_everywhere(grid, everywhere, [&](const PointTet& tet) {
+  const auto may_have = [&](const Index3& cell) { return nodes.has_flagged_node(labelled, cell); };
+  const auto kept = select_everywhere(grid, may_have, [&](const PointTet& tet) {
     return std::any_of(tet.begin(), tet.end(),
                        [&](const LatticePoint& node) { return labelled[nodes.number_of(node)] != 0; });
   });

@@ -33,14 +33,14 @@ class ContactRemover {
   }
 
   ContactReport count() {
-    report_.vertex_contacts = places_in_image(Kind::vertex).size();
-    report_.edge_contacts = places_in_image(Kind::edge).size();
+    const auto [vertex_places, edge_places] = places_in_image();
+    report_.vertex_contacts = vertex_places.size();
+    report_.edge_contacts = edge_places.size();
     return report_;
   }
 
   ContactReport run() {
-    std::vector<std::size_t> vertex_places = places_in_image(Kind::vertex);
-    std::vector<std::size_t> edge_places = places_in_image(Kind::edge);
+    auto [vertex_places, edge_places] = places_in_image();
     report_.vertex_contacts = vertex_places.size();
     report_.edge_contacts = edge_places.size();
     while (!vertex_places.empty() || !edge_places.empty()) {
@@ -70,24 +70,34 @@ class ContactRemover {
 
   [[nodiscard]] MaterialId at(std::size_t v) const { return image_.voxels[v]; }
 
-  /// The places (lowest voxel of the 2x2x2 cell or of one of three 2x2 squares) with a contact, ascending.
-  std::vector<std::size_t> places_in_image(Kind kind) {
+  /// The places with a contact, by kind: the lowest voxel of the 2x2x2 cell, or of one of three 2x2 squares.
+  struct Places {
+    std::vector<std::size_t> vertex, edge;  // ascending
+  };
+  Places places_in_image() {
     const auto& size = image_.frame.size;
-    std::vector<std::vector<std::size_t>> found(static_cast<std::size_t>(size[2]));
+    std::vector<Places> found(static_cast<std::size_t>(size[2]));
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < size[2]; ++k) {
+      Places& slice = found[static_cast<std::size_t>(k)];
       for (int j = 0; j < size[1]; ++j) {
         for (int i = first_mixed(0, j, k); i < size[0]; i = first_mixed(i + 1, j, k)) {
           const std::size_t v = image_.frame.offset(i, j, k);
-          if (may_have_contact(v, {i, j, k}) && find_contact(v, kind)) {
-            found[static_cast<std::size_t>(k)].push_back(v);
+          if (may_have_contact(v, {i, j, k})) {
+            if (find_contact(v, Kind::vertex)) {
+              slice.vertex.push_back(v);
+            }
+            if (find_contact(v, Kind::edge)) {
+              slice.edge.push_back(v);
+            }
           }
         }
       }
     }
-    std::vector<std::size_t> places;
-    for (const auto& slice : found) {
-      places.insert(places.end(), slice.begin(), slice.end());
+    Places places;
+    for (const Places& slice : found) {
+      places.vertex.insert(places.vertex.end(), slice.vertex.begin(), slice.vertex.end());
+      places.edge.insert(places.edge.end(), slice.edge.begin(), slice.edge.end());
     }
     return places;
   }
