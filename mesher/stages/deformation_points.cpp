@@ -162,10 +162,16 @@ std::uint8_t open_faces(const LabelImage& image, int i, int j, int k) {
 
 LabelSet materials_around(const LabelImage& image, int i, int j, int k) {
   LabelSet set;
+  MaterialId last = image.at(i, j, k);
+  set.insert(last);
   for (int dk = -1; dk <= 1; ++dk) {
     for (int dj = -1; dj <= 1; ++dj) {
       for (int di = -1; di <= 1; ++di) {
-        set.insert(image.at_or_background(i + di, j + dj, k + dk));
+        const MaterialId material = image.at_or_background(i + di, j + dj, k + dk);
+        if (material != last) {  // mostly there are runs of the same
+          set.insert(material);
+          last = material;
+        }
       }
     }
   }
@@ -213,7 +219,8 @@ TargetPoints extract_target_points(const LabelImage& image, Connectivity connect
     }
   }
   for (std::size_t t = 0; t < found.size(); ++t) {
-    points.targets[t].set = sets.number_of(found[t]);
+    const bool as_before = t > 0 && found[t] == found[t - 1];
+    points.targets[t].set = as_before ? points.targets[t - 1].set : sets.number_of(found[t]);
   }
   return points;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 #include "mesher/core/error.hpp"
 
@@ -27,12 +28,15 @@ const CellFacets& facets_of(std::size_t node_count) {
   return node_count == 4 ? kTetFacets : node_count == 5 ? kPyramidFacets : kHexFacets;
 }
 
-/// A facet of one of the cells at its smallest node. `key`: its second and third smallest node, which with
-/// the smallest tell it from every other facet of a conforming mesh.
+constexpr CellId kNoCell = ~CellId{0};
+
+/// A facet at its smallest node. `key`: its second and third smallest node, which with the smallest tell it
+/// from every other facet of a conforming mesh.
 struct Facet {
   std::uint64_t key;
   CellId cell;
-  std::uint8_t number;  ///< among the cell's facets
+  CellId across;        ///< kNoCell for one on the mesh's surface
+  std::uint8_t number;  ///< among the facets of `cell`
 };
 
 /// The key of a facet; 0 when v is not its smallest node.
@@ -57,21 +61,66 @@ std::uint64_t key_of(std::span<const VertexId> cell, const std::array<std::uint8
   return touches ? std::uint64_t{second} << 32U | third : 0;
 }
 
-/// The facets whose smallest node is v, sorted by their nodes.
-void collect_facets(const MaterialMesh& mesh, std::span<const CellId> cells, VertexId v,
+/// The key of the facet of a tet opposite node f, whose smallest node is node `own`.
+std::uint64_t key_of_tet_facet(const std::array<VertexId, 4>& tet, unsigned own, unsigned f) {
+  const unsigned others = 15U & ~(1U << own | 1U << f);
+  const VertexId a = tet[static_cast<unsigned>(std::countr_zero(others))];
+  const VertexId b = tet[static_cast<unsigned>(std::bit_width(others)) - 1];
+  return a < b ? std::uint64_t{a} << 32U | b : std::uint64_t{b} << 32U | a;
+}
+
+/// Adds a cell's facet, or the cell to the facet that is there. False when that has two cells already.
+bool add_facet(std::uint64_t key, CellId cell, std::size_t number, std::vector<Facet>& facets) {
+  // A vertex has a dozen: a search is quicker than any order.
+  const auto same =
+      std::find_if(facets.begin(), facets.end(), [&](const Facet& facet) { return facet.key == key; });
+  if (same == facets.end()) {
+    facets.push_back({key, cell, kNoCell, static_cast<std::uint8_t>(number)});
+    return true;
+  }
+  const bool is_second = same->across == kNoCell;
+  same->across = cell;
+  return is_second;
+}
+
+/// Adds the facets of a tet whose smallest node is v: the three at v where v is the smallest of the tet's
+/// nodes, the one opposite the smaller node where one is. Most tets round a vertex have none.
+bool add_facets_of_tet(const std::array<VertexId, 4>& tet, CellId cell, VertexId v,
+                       std::vector<Facet>& facets) {
+  unsigned smaller = 0;
+  unsigned own = 0;
+  for (unsigned n = 0; n < 4; ++n) {
+    smaller |= tet[n] < v ? 1U << n : 0U;
+    own = tet[n] == v ? n : own;
+  }
+  unsigned opposite = smaller == 0 ? 15U & ~(1U << own) : std::has_single_bit(smaller) ? smaller : 0;
+  bool conforming = true;
+  for (; opposite != 0; opposite &= opposite - 1) {
+    const auto f = static_cast<unsigned>(std::countr_zero(opposite));
+    conforming &= add_facet(key_of_tet_facet(tet, own, f), cell, f, facets);
+  }
+  return conforming;
+}
+
+/// The facets whose smallest node is v. False when one belongs to more than two cells.
+bool collect_facets(const MaterialMesh& mesh, std::span<const CellId> cells, VertexId v,
                     std::vector<Facet>& facets) {
   facets.clear();
+  bool conforming = true;
   for (const CellId c : cells) {
+    if (c < mesh.tets.size()) {
+      conforming &= add_facets_of_tet(mesh.tets[c], c, v, facets);
+      continue;
+    }
     const auto nodes = mesh.nodes_of(c);
     const CellFacets& kind = facets_of(nodes.size());
-    for (unsigned f = 0; f < kind.count; ++f) {
+    for (std::size_t f = 0; f < kind.count; ++f) {
       if (const std::uint64_t key = key_of(nodes, kind.nodes[f], v)) {
-        facets.push_back({key, c, static_cast<std::uint8_t>(f)});
+        conforming &= add_facet(key, c, f, facets);
       }
     }
   }
-  std::sort(facets.begin(), facets.end(),
-            [](const Facet& a, const Facet& b) { return a.key != b.key ? a.key < b.key : a.cell < b.cell; });
+  return conforming;
 }
 
 /// A facet of a cell of `inside` with `across` on its other side, turned from the lower material to the
@@ -91,25 +140,17 @@ InterfaceFacet turned(const MaterialMesh& mesh, const Facet& facet, MaterialId i
   return out;
 }
 
-/// Keeps of sorted facets those that part two materials. False when a facet occurs more than twice.
-bool keep_interfaces(const MaterialMesh& mesh, const std::vector<Facet>& facets,
+/// Keeps of a vertex's facets those that part two materials, ordered by their nodes.
+void keep_interfaces(const MaterialMesh& mesh, std::vector<Facet>& facets,
                      std::vector<InterfaceFacet>& kept) {
-  for (std::size_t f = 0; f < facets.size();) {
-    std::size_t next = f + 1;
-    while (next < facets.size() && facets[next].key == facets[f].key) {
-      ++next;
-    }
-    const MaterialId inside = mesh.material_of(facets[f].cell);
-    const MaterialId across = next - f == 1 ? kBackground : mesh.material_of(facets[f + 1].cell);
-    if (next - f > 2) {
-      return false;
-    }
-    if (inside != across) {
-      kept.push_back(turned(mesh, facets[f], inside, across));
-    }
-    f = next;
+  const auto across_of = [&](const Facet& facet) {
+    return facet.across == kNoCell ? kBackground : mesh.material_of(facet.across);
+  };
+  std::erase_if(facets, [&](const Facet& f) { return mesh.material_of(f.cell) == across_of(f); });
+  std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.key < b.key; });
+  for (const Facet& facet : facets) {
+    kept.push_back(turned(mesh, facet, mesh.material_of(facet.cell), across_of(facet)));
   }
-  return true;
 }
 
 }  // namespace
@@ -126,10 +167,10 @@ std::vector<InterfaceFacet> interface_facets(const MaterialMesh& mesh, const Ver
     for (std::size_t c = 0; c < chunks.size(); ++c) {
       for (std::size_t v = c * kChunk; v < std::min(count, (c + 1) * kChunk); ++v) {
         const auto vertex = static_cast<VertexId>(v);
-        collect_facets(mesh, around.of(vertex), vertex, facets);
-        if (!keep_interfaces(mesh, facets, chunks[c])) {
+        if (!collect_facets(mesh, around.of(vertex), vertex, facets)) {
           conforming = false;
         }
+        keep_interfaces(mesh, facets, chunks[c]);
       }
     }
   }
