@@ -14,6 +14,7 @@
 
 int main(int argc, char** argv) {
   cbc3d::let_waiting_threads_sleep(argv);
+  cbc3d::keep_freed_memory();
   CLI::App app{"CBC3D: from a segmented multi-label image to a tetrahedral or mixed mesh"};
   app.require_subcommand(1);
   app.set_version_flag("--version", CBC3D_VERSION);

@@ -1,6 +1,7 @@
 #include "mesher/core/runtime.hpp"
 
 #include <itkMultiThreaderBase.h>
+#include <malloc.h>
 #include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -45,6 +46,12 @@ void let_waiting_threads_sleep(char** argv) {
       ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0) {
     ::execv("/proc/self/exe", argv);
   }
+}
+
+void keep_freed_memory() {
+  constexpr int kLargestKept = 128 << 20;  // larger blocks go back at once
+  ::mallopt(M_MMAP_THRESHOLD, kLargestKept);
+  ::mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
 }
 
 }  // namespace cbc3d
