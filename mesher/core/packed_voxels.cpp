@@ -112,7 +112,7 @@ std::optional<VoxelBytes> unpack_nrrd(const fs::path& path, std::size_t bytes, s
 VoxelBytes::VoxelBytes(std::size_t header_bytes, std::size_t voxel_bytes)
     : header_bytes_(header_bytes),
       bytes_(header_bytes + voxel_bytes),
-      memory_(std::make_unique_for_overwrite<std::uint8_t[]>(bytes_)) {}
+      memory_(LargePages<std::uint8_t>().allocate(bytes_), Deleter{bytes_}) {}
 
 bool VoxelBytes::fill_from_gzip(std::span<const std::uint8_t> file) {
   return inflate_gzip(file, {memory_.get(), bytes_});

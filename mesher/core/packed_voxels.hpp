@@ -9,6 +9,8 @@
 #include <optional>
 #include <span>
 
+#include "mesher/core/large_pages.hpp"
+
 namespace cbc3d {
 
 /// Voxels in memory behind a header.
@@ -24,7 +26,11 @@ class VoxelBytes {
 
  private:
   std::size_t header_bytes_, bytes_;
-  std::unique_ptr<std::uint8_t[]> memory_;
+  struct Deleter {
+    std::size_t bytes;
+    void operator()(std::uint8_t* memory) const { LargePages<std::uint8_t>().deallocate(memory, bytes); }
+  };
+  std::unique_ptr<std::uint8_t[], Deleter> memory_;
 };
 
 /// The voxels of a .nii.gz or .nrrd file that holds them itself, gzip-compressed, aligned, in this machine's
