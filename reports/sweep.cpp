@@ -51,6 +51,7 @@ SweepPoint point_of(const std::vector<const Json*>& runs) {
   point.mesher = runs.front()->value("mesher", "");
   point.threads = runs.front()->value("threads", 1);
   point.total = samples_of(seconds_at(runs, {"time_s", "mesh"}));
+  point.with_files = samples_of(seconds_at(runs, {"time_s", "process_wall"}));
   for (const Json* run : runs) {
     if (run->value("status", "") != "ok") {
       point.failure = run->value("status", "") + ": " + run->value("reason", "");
@@ -143,6 +144,7 @@ Json to_json(const std::vector<SweepPoint>& points) {
                     {"mesher", point.mesher},
                     {"threads", point.threads},
                     {"seconds", to_json(point.total)},
+                    {"seconds_with_files", to_json(point.with_files)},
                     {"base_threads", point.base_threads},
                     {"speed_up", point.has_speed_up ? Json(point.speed_up.value) : Json()},
                     {"speed_up_error", point.has_speed_up ? Json(point.speed_up.error) : Json()},

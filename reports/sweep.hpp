@@ -30,6 +30,7 @@ struct SweepPoint {
   std::string case_name, mesher;
   int threads = 1;
   Samples total;
+  Samples with_files;                                   ///< reading and writing included
   std::vector<std::pair<std::string, Samples>> stages;  ///< those that every sample has
   std::vector<Ratio> stage_speed_ups;  ///< of the stages, in their order; empty without a speed-up
   bool has_speed_up = false;           ///< there are samples with fewer threads to compare with
@@ -46,7 +47,8 @@ std::vector<SweepPoint> sweep_points(const std::vector<Json>& results);
 /// All points with all samples.
 Json to_json(const std::vector<SweepPoint>& points);
 
-/// Tables `sweep` (median, spread, speed-up, efficiency, outliers) and `sweep_stages`.
+/// Tables `sweep` (median, spread, speed-up, efficiency, outliers), `sweep_stages`, and `sweep_parallel`
+/// (parallel_table.hpp) where one thread was measured and more were.
 std::vector<Table> sweep_tables(const std::vector<SweepPoint>& points);
 
 /// Per case: the times and the speed-ups over the threads, and for every mesher of several thread counts the

@@ -7,6 +7,7 @@
 
 #include "mesher/core/error.hpp"
 #include "reports/chart.hpp"
+#include "reports/parallel_table.hpp"
 #include "reports/sweep.hpp"
 
 namespace cbc3d::reports {
@@ -192,6 +193,9 @@ std::vector<Table> sweep_tables(const std::vector<SweepPoint>& points) {
   Table stages = stage_table(points);
   if (!stages.rows.empty()) {
     tables.push_back(std::move(stages));
+  }
+  if (Table parallel = parallel_table(points); !parallel.rows.empty()) {
+    tables.push_back(std::move(parallel));
   }
   return tables;
 }

@@ -20,6 +20,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/inrimage.hpp"
 #include "mesher/core/mapped_voxels.hpp"
+#include "mesher/core/packed_voxels.hpp"
 #include "mesher/core/voxel_rows.hpp"
 
 namespace cbc3d {
@@ -342,6 +343,12 @@ LabelImage read_with_itk(const fs::path& path) {
     classify_component(io->GetComponentType(), mapped->data(), mapped, image, path);
     return image;
   }
+  const bool floating =
+      io->GetComponentType() == Component::FLOAT || io->GetComponentType() == Component::DOUBLE;
+  if (auto unpacked = unpack_voxels(path, io->GetImageSizeInBytes(), io->GetComponentSize(), floating)) {
+    classify_component(io->GetComponentType(), unpacked->data(), mapped, image, path);
+    return image;
+  }
   itk::ImageIORegion region(io->GetNumberOfDimensions());
   for (unsigned axis = 0; axis < io->GetNumberOfDimensions(); ++axis) {
     region.SetSize(axis, io->GetDimensions(axis));
@@ -359,11 +366,16 @@ LabelImage read_with_itk(const fs::path& path) {
 }
 
 LabelImage read_from_inrimage(const fs::path& path) {
+  constexpr std::array<Component, 8> kComponents = {// in the order of InrimageVolume::Voxel
+                                                    Component::UCHAR, Component::CHAR,  Component::USHORT,
+                                                    Component::SHORT, Component::UINT,  Component::INT,
+                                                    Component::FLOAT, Component::DOUBLE};
   InrimageVolume volume = read_inrimage(path);
   LabelImage image;
   image.frame = volume.frame;
   std::optional<MappedVoxels> none;
-  classify<double>(volume.values.data(), none, image, path);
+  classify_component(kComponents[static_cast<std::size_t>(volume.type)], volume.bytes.data(), none, image,
+                     path);
   return image;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -89,40 +88,65 @@ ImageFrame frame_of(const Fields& fields, const std::filesystem::path& path) {
   return frame;
 }
 
-template <typename T>
-void convert(const std::vector<char>& bytes, bool swap, std::vector<double>& values) {
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    char one[sizeof(T)];
-    std::memcpy(one, bytes.data() + v * sizeof(T), sizeof(T));
-    if (swap) {
-      std::reverse(one, one + sizeof(T));
-    }
-    T value;
-    std::memcpy(&value, one, sizeof(T));
-    values[v] = static_cast<double>(value);
+InrimageVolume::Voxel type_of(const Fields& fields, int bits, const std::filesystem::path& path) {
+  using Voxel = InrimageVolume::Voxel;
+  const auto found = fields.find("TYPE");
+  const std::string type = found != fields.end() ? found->second : "";
+  const bool is_signed = type.starts_with("signed");
+  if (type.starts_with("float") && (bits == 32 || bits == 64)) {
+    return bits == 64 ? Voxel::float64 : Voxel::float32;
+  }
+  switch (type.starts_with("float") ? 0 : bits) {
+    case 8:
+      return is_signed ? Voxel::int8 : Voxel::uint8;
+    case 16:
+      return is_signed ? Voxel::int16 : Voxel::uint16;
+    case 32:
+      return is_signed ? Voxel::int32 : Voxel::uint32;
+    default:
+      fail(path, "its pixel type is TYPE=" + type + " PIXSIZE=" + std::to_string(bits) +
+                     "; known are 8, 16 and 32-bit integers and 32 and 64-bit floats");
   }
 }
 
-void convert_typed(const Fields& fields, int bits, const std::vector<char>& bytes,
-                   std::vector<double>& values, const std::filesystem::path& path) {
-  const auto text = [&fields](const char* key) {
-    return fields.count(key) != 0 ? fields.at(key) : std::string();
-  };
-  const bool file_little = text("CPU") != "sun" && text("CPU") != "sgi";
-  const bool swap = file_little != (std::endian::native == std::endian::little);
-  const std::string type = text("TYPE");
-  const bool is_signed = type.rfind("signed", 0) == 0;
-  if (type.rfind("float", 0) == 0) {
-    bits == 64 ? convert<double>(bytes, swap, values) : convert<float>(bytes, swap, values);
-  } else if (bits == 8) {
-    is_signed ? convert<std::int8_t>(bytes, swap, values) : convert<std::uint8_t>(bytes, swap, values);
-  } else if (bits == 16) {
-    is_signed ? convert<std::int16_t>(bytes, swap, values) : convert<std::uint16_t>(bytes, swap, values);
-  } else if (bits == 32) {
-    is_signed ? convert<std::int32_t>(bytes, swap, values) : convert<std::uint32_t>(bytes, swap, values);
-  } else {
-    fail(path, "its pixel type is TYPE=" + type + " PIXSIZE=" + text("PIXSIZE") +
-                   "; known are 8, 16 and 32-bit integers and 32 and 64-bit floats");
+bool is_of_other_byte_order(const Fields& fields) {
+  const auto found = fields.find("CPU");
+  const bool little = found == fields.end() || (found->second != "sun" && found->second != "sgi");
+  return little != (std::endian::native == std::endian::little);
+}
+
+std::size_t bytes_of(InrimageVolume::Voxel type) {
+  using Voxel = InrimageVolume::Voxel;
+  switch (type) {
+    case Voxel::uint8:
+    case Voxel::int8:
+      return 1;
+    case Voxel::uint16:
+    case Voxel::int16:
+      return 2;
+    case Voxel::float64:
+      return 8;
+    default:
+      return 4;
+  }
+}
+
+void swap_bytes(std::uint8_t* bytes, std::size_t count, std::size_t component_bytes) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t v = 0; v < count; ++v) {
+    std::reverse(bytes + v * component_bytes, bytes + (v + 1) * component_bytes);
+  }
+}
+
+/// What follows the header in a file that is read so far.
+void read_voxels(gzFile_s* file, std::uint8_t* bytes, std::size_t count, const std::filesystem::path& path) {
+  for (std::size_t done = 0; done < count;) {
+    const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 28U));
+    const int got = gzread(file, bytes + done, chunk);
+    if (got <= 0) {
+      fail(path, "the file ends before its last voxel (truncated); copy it again");
+    }
+    done += static_cast<std::size_t>(got);
   }
 }
 
@@ -138,21 +162,19 @@ InrimageVolume read_inrimage(const std::filesystem::path& path) {
   if (!file) {
     fail(path, "the file cannot be opened; check its name and permissions");
   }
-  const Fields fields = parse_fields(read_header(file.get(), path));
-  InrimageVolume volume;
-  volume.frame = frame_of(fields, path);
-  volume.values.resize(volume.frame.voxel_count());
+  const std::string header = read_header(file.get(), path);
+  const Fields fields = parse_fields(header);
+  const ImageFrame frame = frame_of(fields, path);
   const int bits = static_cast<int>(number(fields, "PIXSIZE", 8, path));  // "8 bits": the number comes first
-  std::vector<char> bytes(volume.values.size() * static_cast<std::size_t>(std::max(8, bits)) / 8);
-  for (std::size_t done = 0; done < bytes.size();) {
-    const auto chunk = static_cast<unsigned>(std::min<std::size_t>(bytes.size() - done, 1U << 28U));
-    const int got = gzread(file.get(), bytes.data() + done, chunk);
-    if (got <= 0) {
-      fail(path, "the file ends before its last voxel (truncated); copy it again");
-    }
-    done += static_cast<std::size_t>(got);
+  const InrimageVolume::Voxel type = type_of(fields, bits, path);
+  const std::size_t count = frame.voxel_count(), component_bytes = bytes_of(type);
+  InrimageVolume volume{frame, type, VoxelBytes(header.size(), count * component_bytes)};
+  if (path.extension() != ".gz" || !volume.bytes.fill_from_gzip(path)) {
+    read_voxels(file.get(), volume.bytes.data(), count * component_bytes, path);
   }
-  convert_typed(fields, bits, bytes, volume.values, path);
+  if (is_of_other_byte_order(fields)) {
+    swap_bytes(volume.bytes.data(), count, component_bytes);
+  }
   return volume;
 }
 

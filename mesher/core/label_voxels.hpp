@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/core/large_pages.hpp"
 #include "mesher/core/mapped_voxels.hpp"
 
 namespace cbc3d {
@@ -118,8 +119,8 @@ class LabelVoxels {
   void widen();
 
   std::optional<MappedVoxels> file_;
-  std::vector<std::uint8_t> narrow_;
-  std::vector<std::uint16_t> wide_;
+  std::vector<std::uint8_t, LargePages<std::uint8_t>> narrow_;
+  std::vector<std::uint16_t, LargePages<std::uint16_t>> wide_;
   std::size_t count_ = 0;
   std::uint8_t* bytes_ = nullptr;   // into the file or narrow_; null when wide
   std::uint16_t* words_ = nullptr;  // into wide_; null when narrow

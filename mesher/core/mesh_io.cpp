@@ -21,6 +21,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/gmsh_io.hpp"
+#include "mesher/core/parallel_zlib.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -99,32 +100,48 @@ class VtkSilence {
 };
 
 template <typename Writer>
-void run_writer(Writer& writer, const Mesh& mesh, const fs::path& path) {
+void run_writer(Writer& writer, vtkUnstructuredGrid& grid, const fs::path& path) {
   const VtkSilence silence;
   vtkNew<FaultCatcher> faults;
   writer.AddObserver(vtkCommand::ErrorEvent, faults);
-  const auto grid = to_vtk(mesh);
-  writer.SetInputData(grid);
+  writer.SetInputData(&grid);
   writer.SetFileName(path.c_str());
   if (writer.Write() != 1 || writer.GetErrorCode() != 0 || !faults->text.empty()) {
     throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
   }
 }
 
+/// The arrays of a grid as its writer will come to ask for them; the first offset, 0, it leaves out.
+void foresee_arrays(vtkUnstructuredGrid& grid, std::size_t block_bytes, ParallelZlib& compressor) {
+  const auto foresee = [&](vtkDataArray* array, vtkIdType first) {
+    const auto bytes = static_cast<std::size_t>(array->GetNumberOfValues() - first) *
+                       static_cast<std::size_t>(array->GetDataTypeSize());
+    compressor.foresee({static_cast<const std::uint8_t*>(array->GetVoidPointer(first)), bytes}, block_bytes);
+  };
+  foresee(grid.GetPoints()->GetData(), 0);
+  foresee(grid.GetCells()->GetConnectivityArray(), 0);
+  foresee(grid.GetCells()->GetOffsetsArray(), 1);
+  foresee(grid.GetCellTypesArray(), 0);
+  foresee(grid.GetCellData()->GetArray(kLabelArray), 0);
+}
+
 void write_vtu(const Mesh& mesh, const fs::path& path) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  vtkNew<ParallelZlib> compressor;
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  writer->SetCompressor(compressor);
   writer->SetCompressionLevel(1);
-  run_writer(*writer, mesh, path);
+  const auto grid = to_vtk(mesh);
+  foresee_arrays(*grid, writer->GetBlockSize(), *compressor);
+  run_writer(*writer, *grid, path);
 }
 
 void write_legacy_vtk(const Mesh& mesh, const fs::path& path) {
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
   writer->SetFileTypeToBinary();
-  run_writer(*writer, mesh, path);
+  run_writer(*writer, *to_vtk(mesh), path);
 }
 
 template <int Nodes>

@@ -56,4 +56,10 @@ void let_waiting_threads_sleep(char** argv) {
   }
 }
 
+void keep_freed_memory() {
+  constexpr int kLargestKept = 128 << 20;  // larger blocks go back at once
+  ::mallopt(M_MMAP_THRESHOLD, kLargestKept);
+  ::mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
+}
+
 }  // namespace cbc3d

@@ -20,6 +20,10 @@ void keep_freed_memory();
 /// in main(). Does nothing where that cannot be done.
 void let_waiting_threads_sleep(char** argv);
 
+/// Lets the process keep freed memory for what it asks for next, instead of handing blocks back that it then
+/// gets again page by page, each to be cleared by the system: that is serial work. Call it early in main().
+void keep_freed_memory();
+
 /// Wall-clock seconds since construction.
 class Stopwatch {
  public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mesher/improve/tet_shape.hpp"
 
@@ -215,6 +216,15 @@ struct Cut {
   }
 };
 
+/// The parts in the order in which threads are to take them, so that no large one is left for the end.
+std::vector<std::size_t> largest_first(const std::vector<std::vector<TetId>>& parts) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return parts[a].size() > parts[b].size(); });
+  return order;
+}
+
 Patch make_patch(LocalMesh& local, const PatchRules& rules, const PointsOfVertices& hosted) {
   Patch patch{TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
                          std::move(local.locked)),
@@ -299,8 +309,10 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const 
   const Cut cut(mesh, rules, round);
   const PointsOfVertices hosted(hosts, mesh.points.size());
   std::vector<PatchResult> results(cut.parts.size());
+  const std::vector<std::size_t> order = largest_first(cut.parts);
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t p = 0; p < cut.parts.size(); ++p) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t p = order[i];
     LocalMesh local(mesh, cut.parts[p], cut.owner);
     Patch patch = make_patch(local, rules, hosted);
     improve(patch);

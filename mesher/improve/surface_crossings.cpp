@@ -1,7 +1,9 @@
 #include "mesher/improve/surface_crossings.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "mesher/improve/mesh_star.hpp"
 
@@ -83,11 +85,8 @@ class CrossingFinder {
       sum += (points[f[1]] - points[f[0]]).norm();
     }
     cell_mm_ = facets.empty() ? 1 : 2 * sum / static_cast<double>(facets.size());
-    for (std::uint32_t f = 0; f < facets.size(); ++f) {
-      boxes_.push_back(box_of(facets[f]));
-      for_each_cell(f, [&](std::uint64_t key) { entries_.push_back({key, f}); });
-    }
-    std::sort(entries_.begin(), entries_.end());
+    boxes_.resize(facets.size());
+    fill_buckets();
   }
 
   [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> find() const {
@@ -109,8 +108,39 @@ class CrossingFinder {
   struct Entry {
     std::uint64_t key;
     std::uint32_t facet;
-    auto operator<=>(const Entry&) const = default;
   };
+
+  [[nodiscard]] std::size_t bucket_of(std::uint64_t key) const {
+    return (key * 0x9E3779B97F4A7C15ULL >> 32U) & (first_.size() - 2);
+  }
+
+  /// Cells by a hash of their key, counted and then put in place; in what order they are in a bucket does not
+  /// matter.
+  void fill_buckets() {
+    std::size_t buckets = 2;
+    while (buckets < 4 * facets_.size()) {
+      buckets *= 2;
+    }
+    first_.assign(buckets + 1, 0);
+    const auto one_more = [](std::uint32_t& count) {
+      return std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
+    };
+#pragma omp parallel for schedule(static)
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      boxes_[f] = box_of(facets_[f]);
+      for_each_cell(static_cast<std::uint32_t>(f),
+                    [&](std::uint64_t key) { one_more(first_[bucket_of(key)]); });
+    }
+    std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0U);
+    entries_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+#pragma omp parallel for schedule(static)
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      for_each_cell(static_cast<std::uint32_t>(f), [&](std::uint64_t key) {
+        entries_[one_more(next[bucket_of(key)])] = {key, static_cast<std::uint32_t>(f)};
+      });
+    }
+  }
 
   struct Box {
     Vec3 low, high;
@@ -156,10 +186,11 @@ class CrossingFinder {
   [[nodiscard]] std::vector<std::uint32_t> partners_of(std::uint32_t f) const {
     std::vector<std::uint32_t> near;
     for_each_cell(f, [&](std::uint64_t key) {
-      for (auto e = std::lower_bound(entries_.begin(), entries_.end(), Entry{key, f + 1});
-           e != entries_.end() && e->key == key; ++e) {
-        if (boxes_[f].meets(boxes_[e->facet], 1e-6 * cell_mm_)) {
-          near.push_back(e->facet);
+      const std::size_t bucket = bucket_of(key);
+      for (std::uint32_t e = first_[bucket]; e < first_[bucket + 1]; ++e) {
+        const Entry& entry = entries_[e];
+        if (entry.facet > f && entry.key == key && boxes_[f].meets(boxes_[entry.facet], 1e-6 * cell_mm_)) {
+          near.push_back(entry.facet);
         }
       }
     });
@@ -194,7 +225,8 @@ class CrossingFinder {
   const std::vector<Vec3>& points_;
   const std::vector<Facet>& facets_;
   double cell_mm_ = 1;
-  std::vector<Box> boxes_;  // of the facets
+  std::vector<Box> boxes_;            // of the facets
+  std::vector<std::uint32_t> first_;  // entry of every bucket, whose number is a power of two
   std::vector<Entry> entries_;
 };
 

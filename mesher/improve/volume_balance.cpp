@@ -8,20 +8,40 @@
 namespace cbc3d {
 namespace {
 
+/// A tet's volume and the areas of its faces towards another material, 0 for the other faces.
+struct TetExtent {
+  double volume_mm3;
+  std::array<double, 4> area_mm2;
+};
+
+TetExtent extent_of_tet(const MaterialMesh& mesh, const std::array<TetId, 4>& neighbours, std::size_t t) {
+  const auto& n = mesh.tets[t];
+  TetExtent extent{
+      six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6, {}};
+  for (std::size_t f = 0; f < 4; ++f) {
+    if (neighbours[f] == kNoTet || mesh.materials[neighbours[f]] != mesh.materials[t]) {
+      const auto& face = kTetFace[f];
+      const Vec3& p = mesh.points[n[face[0]]];
+      extent.area_mm2[f] = 0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
+    }
+  }
+  return extent;
+}
+
+/// Measured in parallel, added up in the order of the tets: sums depend on it.
 Extent extent_of(const MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
                  std::size_t materials) {
+  std::vector<TetExtent> of_tets(mesh.tets.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    of_tets[t] = extent_of_tet(mesh, neighbours[t], t);
+  }
   Extent extent{std::vector<double>(materials, 0.0), std::vector<double>(materials, 0.0)};
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto& n = mesh.tets[t];
     const MaterialId m = mesh.materials[t];
-    extent.volume_mm3[m] +=
-        six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6;
-    for (std::size_t f = 0; f < 4; ++f) {
-      if (neighbours[t][f] == kNoTet || mesh.materials[neighbours[t][f]] != m) {
-        const auto& face = kTetFace[f];
-        const Vec3& p = mesh.points[n[face[0]]];
-        extent.area_mm2[m] += 0.5 * (mesh.points[n[face[1]]] - p).cross(mesh.points[n[face[2]]] - p).norm();
-      }
+    extent.volume_mm3[m] += of_tets[t].volume_mm3;
+    for (const double area_mm2 : of_tets[t].area_mm2) {
+      extent.area_mm2[m] += area_mm2;
     }
   }
   return extent;

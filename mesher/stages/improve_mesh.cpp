@@ -46,10 +46,10 @@ std::vector<double> volumes_of_materials(const LabelImage& image) {
 }
 
 /// Moves the boundaries outwards by what each material lacks in volume, at most half a voxel in all.
-void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, ImageBoundary& boundary) {
+void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, const std::vector<double>& wanted_mm3,
+                     ImageBoundary& boundary) {
   const double most_mm = 0.5 * std::cbrt(voxel_volume_mm3(image));
   const Extent extent = extent_of_materials(mesh, image.material_count());
-  const std::vector<double> wanted_mm3 = volumes_of_materials(image);
   std::vector<double> offsets = boundary.offsets();
   for (std::size_t m = 1; m < offsets.size(); ++m) {
     if (extent.area_mm2[m] > 0) {
@@ -407,7 +407,9 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   target.places = places_of(image, boundary);
   target.largest_change_mm3 = 8 * voxel_volume_mm3(image);
   target.volumes_mm3 = volumes_of_materials(image);
-  target.correct = [&](const MaterialMesh& now) { correct_volumes(now, image, boundary); };
+  target.correct = [&](const MaterialMesh& now) {
+    correct_volumes(now, image, target.volumes_mm3, boundary);
+  };
   return improve_mesh(mesh, target, options, on_round);
 }
 

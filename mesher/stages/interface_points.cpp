@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/core/parallel.hpp"
+
 namespace cbc3d {
 namespace {
 
@@ -29,12 +31,14 @@ class VertexGrid {
  public:
   VertexGrid(const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets, double cell_mm)
       : vertices_(vertices), cell_mm_(cell_mm) {
-    for (VertexId v = 0; v < vertices.size(); ++v) {
-      if (sets[v].size > 1) {
-        entries_.push_back({key(cell_of(vertices[v])), v});
-      }
+    const std::vector<VertexId> chosen =
+        indices_where(vertices.size(), [&](std::size_t v) { return sets[v].size > 1; });
+    entries_.resize(chosen.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      entries_[i] = {key(cell_of(vertices[chosen[i]])), chosen[i]};
     }
-    std::sort(entries_.begin(), entries_.end());
+    sort_distinct(entries_);
   }
 
   /// Calls f(vertex) for the vertices of the 27 cubes round x until it returns true.
@@ -107,17 +111,21 @@ std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vecto
 void renew_vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
                             const std::vector<std::array<TetId, 4>>& neighbours,
                             const std::vector<std::uint8_t>& touched, std::vector<MaterialSet>& sets) {
+  const std::vector<std::uint32_t> concerned = indices_where(tets.size(), [&](std::size_t t) {
+    const auto& n = tets[t];
+    return (touched[n[0]] | touched[n[1]] | touched[n[2]] | touched[n[3]]) != 0;
+  });
   const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t part = 0; part < parts; ++part) {
-    // Every thread passes over all tets for its range of vertices, so that a set sees them in order.
+    // Every thread passes over all these tets for its range of vertices, so that a set sees them in order.
     const auto begin = static_cast<VertexId>(part * sets.size() / parts);
     const auto end = static_cast<VertexId>((part + 1) * sets.size() / parts);
     const auto is_mine = [&](VertexId v) { return v >= begin && v < end && touched[v] != 0; };
     for (VertexId v = begin; v < end; ++v) {
       sets[v] = touched[v] != 0 ? MaterialSet{} : sets[v];
     }
-    for (std::size_t t = 0; t < tets.size(); ++t) {
+    for (const std::uint32_t t : concerned) {
       for (std::size_t n = 0; n < 4; ++n) {
         if (is_mine(tets[t][n])) {
           sets[tets[t][n]].add(materials[t]);
@@ -217,12 +225,10 @@ std::vector<std::size_t> renew_hosts(const std::vector<InterfacePoint>& points,
                                      const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets,
                                      double reach_mm, std::vector<VertexId>& hosts) {
   hosts.resize(points.size(), kNoVertex);
-  std::vector<std::size_t> without;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    if (hosts[p] == kNoVertex || !points[p].is_on(sets[hosts[p]])) {
-      without.push_back(p);
-    }
-  }
+  const std::vector<std::uint32_t> lost = indices_where(points.size(), [&](std::size_t p) {
+    return hosts[p] == kNoVertex || !points[p].is_on(sets[hosts[p]]);
+  });
+  std::vector<std::size_t> without(lost.begin(), lost.end());
   if (without.empty()) {
     return without;
   }

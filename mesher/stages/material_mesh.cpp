@@ -4,6 +4,7 @@
 #include <map>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/parallel.hpp"
 
 namespace cbc3d {
 
@@ -123,7 +124,7 @@ std::vector<VertexId> morton_order(const std::vector<Vec3>& points) {
     };
     keys[v] = {cell(0) | cell(1) << 1U | cell(2) << 2U, static_cast<VertexId>(v)};
   }
-  std::sort(keys.begin(), keys.end());
+  sort_distinct(keys);
   std::vector<VertexId> order(points.size());
   std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
   return order;

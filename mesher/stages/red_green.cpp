@@ -5,6 +5,8 @@
 #include <bit>
 #include <utility>
 
+#include "mesher/core/parallel.hpp"
+
 namespace cbc3d {
 namespace {
 
@@ -165,17 +167,16 @@ class Closure {
         demands[t] = demand_of(lattice_, lattice_.reds[t]);
       }
     }
-    bool changed = false;
-    for (std::size_t t = 0; t < count; ++t) {
+    const std::vector<std::uint32_t> demanding =
+        indices_where(count, [&](std::size_t t) { return demands[t].red || demands[t].extra != 0; });
+    for (const std::uint32_t t : demanding) {
       if (demands[t].red) {
         split_red(t);
-        changed = true;
-      } else if (demands[t].extra != 0) {
+      } else {
         split_edges(lattice_.reds[t], demands[t].extra);
-        changed = true;
       }
     }
-    return changed;
+    return !demanding.empty();
   }
 
   VertexId split_edge(VertexId a, VertexId b, int level) {

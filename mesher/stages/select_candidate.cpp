@@ -1,7 +1,7 @@
 #include "mesher/stages/select_candidate.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 
 namespace cbc3d {
 namespace {
@@ -14,33 +14,55 @@ class Selector {
 
   std::size_t run() {
     fill_notches();
-    std::vector<TetId> queue(materials_.size());
-    std::iota(queue.begin(), queue.end(), TetId{0});
-    std::vector<TetId> next;
-    std::size_t relabelled = 0;
-    while (!queue.empty()) {
-      next.clear();
+    inspect_all();
+    std::vector<TetId> queue;
+    while (!next_.empty()) {
+      std::sort(next_.begin(), next_.end());
+      next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
+      queue.swap(next_);
+      next_.clear();
       for (const TetId t : queue) {
-        const MaterialId wanted = wanted_material(t);
-        if (wanted != materials_[t]) {
-          materials_[t] = wanted;
-          ++relabelled;
-          next.push_back(t);
-          for (const TetId n : neighbours_[t]) {
-            if (n != kNoTet) {
-              next.push_back(n);
-            }
-          }
-        }
+        inspect(t);
       }
-      std::sort(next.begin(), next.end());
-      next.erase(std::unique(next.begin(), next.end()), next.end());
-      queue.swap(next);
     }
-    return relabelled;
+    return relabelled_;
   }
 
  private:
+  /// Inspects all tets in order. In parallel those are found before that have reason to change as things are;
+  /// of the others only those are looked at of which a neighbour has changed meanwhile.
+  void inspect_all() {
+    std::vector<std::uint8_t> open(materials_.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t t = 0; t < open.size(); ++t) {
+      open[t] = wanted_material(static_cast<TetId>(t)) != materials_[t] ? 1 : 0;
+    }
+    for (std::size_t t = 0; t < open.size(); ++t) {
+      if (open[t] != 0 && inspect(static_cast<TetId>(t))) {
+        for (const TetId n : neighbours_[t]) {
+          if (n != kNoTet) {
+            open[n] = 1;
+          }
+        }
+      }
+    }
+  }
+
+  /// Gives a tet the material it is to have; true when that is another one, and then it and its neighbours
+  /// are to be inspected again.
+  bool inspect(TetId t) {
+    const MaterialId wanted = wanted_material(t);
+    if (wanted == materials_[t]) {
+      return false;
+    }
+    materials_[t] = wanted;
+    ++relabelled_;
+    next_.push_back(t);
+    std::copy_if(neighbours_[t].begin(), neighbours_[t].end(), std::back_inserter(next_),
+                 [](TetId n) { return n != kNoTet; });
+    return true;
+  }
+
   /// Background is inspected first, as in the paper, where no label is final yet: a background tet with two
   /// or more labelled neighbours goes to one of them. Without this step the rule for labelled tets would only
   /// ever remove. All are judged by the labels as they were before, so the outcome does not depend on the
@@ -102,6 +124,8 @@ class Selector {
   const std::vector<std::array<TetId, 4>>& neighbours_;
   const std::vector<std::uint32_t>& rank_;
   std::vector<MaterialId>& materials_;
+  std::vector<TetId> next_;
+  std::size_t relabelled_ = 0;
 };
 
 }  // namespace

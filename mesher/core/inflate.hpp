@@ -1,0 +1,19 @@
+// Decompression of gzip files whose size is known: label images are long runs of the same bytes, which are
+// copied here as fast as memory takes them, several times faster than zlib copies them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace cbc3d {
+
+/// Decompresses a gzip file (RFC 1952; one member or several) of exactly `out.size()` bytes. False when it
+/// is not one, is damaged or has another size; what `out` holds then means nothing.
+[[nodiscard]] bool inflate_gzip(std::span<const std::uint8_t> file, std::span<std::uint8_t> out);
+
+/// Decompresses the first `out.size()` bytes of a gzip file. False when it has no more than those, or is
+/// damaged so far.
+[[nodiscard]] bool inflate_gzip_begin(std::span<const std::uint8_t> file, std::span<std::uint8_t> out);
+
+}  // namespace cbc3d

@@ -1,0 +1,60 @@
+// Serial passes of the standard library's kind over several threads, with results that do not depend on how
+// many there are.
+#pragma once
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cbc3d {
+
+/// The indices below `count` for which is(index), ascending.
+template <typename Is>
+std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
+  constexpr std::size_t kLeastPiece = 4096;
+  const std::size_t pieces = std::clamp<std::size_t>(count / kLeastPiece, 1, 64);
+  std::vector<std::vector<std::uint32_t>> found(pieces);
+#pragma omp parallel for schedule(dynamic) if (pieces > 1)
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    const std::size_t end = (piece + 1) * count / pieces;
+    for (std::size_t i = piece * count / pieces; i < end; ++i) {
+      if (is(i)) {
+        found[piece].push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+  }
+  std::vector<std::uint32_t> all = std::move(found[0]);
+  for (std::size_t piece = 1; piece < pieces; ++piece) {
+    all.insert(all.end(), found[piece].begin(), found[piece].end());
+  }
+  return all;
+}
+
+/// Sorts values of which no two are equal, so that there is but one order.
+template <typename T>
+void sort_distinct(std::vector<T>& values) {
+  constexpr std::size_t kLeastPiece = 4096;
+  const auto at = [&](std::size_t piece, std::size_t pieces) {
+    return values.begin() + static_cast<std::ptrdiff_t>(piece * values.size() / pieces);
+  };
+  std::size_t pieces = 1;
+  while (pieces < static_cast<std::size_t>(omp_get_max_threads()) &&
+         values.size() / pieces > 2 * kLeastPiece) {
+    pieces *= 2;
+  }
+#pragma omp parallel for schedule(static, 1) if (pieces > 1)
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    std::sort(at(piece, pieces), at(piece + 1, pieces));
+  }
+  for (std::size_t pairs = pieces / 2; pairs > 0; pairs /= 2) {
+#pragma omp parallel for schedule(static, 1) if (pairs > 1)
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+      std::inplace_merge(at(2 * pair, 2 * pairs), at(2 * pair + 1, 2 * pairs), at(2 * pair + 2, 2 * pairs));
+    }
+  }
+}
+
+}  // namespace cbc3d

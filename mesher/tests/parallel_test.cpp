@@ -1,0 +1,52 @@
+// Passes over several threads: the same as one thread's.
+#include "mesher/core/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+namespace cbc3d {
+namespace {
+
+/// Runs a check at several thread counts.
+template <typename Check>
+void at_thread_counts(const Check& check) {
+  const int before = omp_get_max_threads();
+  for (const int threads : {1, 2, 3, 8}) {
+    omp_set_num_threads(threads);
+    check();
+  }
+  omp_set_num_threads(before);
+}
+
+TEST(Parallel, IndicesAreAscendingAndComplete) {
+  for (const std::size_t count : {0, 1, 4095, 8192, 100001}) {
+    std::vector<std::uint32_t> wanted;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (i % 7 == 3 || i + 1 == count) {
+        wanted.push_back(i);
+      }
+    }
+    at_thread_counts([&] {
+      EXPECT_EQ(indices_where(count, [&](std::size_t i) { return i % 7 == 3 || i + 1 == count; }), wanted);
+    });
+  }
+}
+
+TEST(Parallel, SortsLikeOneThread) {
+  for (const std::size_t count : {0, 1, 5000, 20000, 100001}) {
+    std::vector<std::uint32_t> shuffled(count);
+    std::iota(shuffled.begin(), shuffled.end(), 17U);
+    const std::vector<std::uint32_t> wanted = shuffled;
+    std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(3));
+    at_thread_counts([&] {
+      std::vector<std::uint32_t> values = shuffled;
+      sort_distinct(values);
+      EXPECT_EQ(values, wanted) << count << " values, " << omp_get_max_threads() << " threads";
+    });
+  }
+}
+
+}  // namespace
+}  // namespace cbc3d
