@@ -1,5 +1,5 @@
-// Decompression of gzip files whose size is known: label images are long runs of the same bytes, which are
-// copied here as fast as memory takes them, several times faster than zlib copies them.
+// Decompression of gzip files whose size is known, by libdeflate: twice as fast as zlib, which reads piece by
+// piece.
 #pragma once
 
 #include <cstddef>

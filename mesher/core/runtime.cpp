@@ -41,14 +41,6 @@ std::int64_t process_peak_rss_bytes() {
   return static_cast<std::int64_t>(self_usage().ru_maxrss) * 1024;
 }
 
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int kLargest = 32 << 20;  // that glibc takes
-  ::mallopt(M_MMAP_THRESHOLD, kLargest);
-  ::mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
-#endif
-}
-
 void let_waiting_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr &&
       ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0) {
@@ -57,9 +49,9 @@ void let_waiting_threads_sleep(char** argv) {
 }
 
 void keep_freed_memory() {
-  constexpr int kLargestKept = 128 << 20;  // larger blocks go back at once
+  constexpr int kLargestKept = 32 << 20;  // the most that glibc takes; larger blocks go back at once
   ::mallopt(M_MMAP_THRESHOLD, kLargestKept);
-  ::mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
+  ::mallopt(M_TRIM_THRESHOLD, 8 * kLargestKept);
 }
 
 }  // namespace cbc3d

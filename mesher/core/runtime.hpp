@@ -10,10 +10,6 @@ namespace cbc3d {
 /// cores. Returns the count in force.
 int set_thread_count(int threads);
 
-/// Lets the allocator keep what is freed for the arrays to come, up to some 64 MB: getting it from the system
-/// again costs more than working on it.
-void keep_freed_memory();
-
 /// Lets OpenMP's waiting threads sleep instead of spin, unless the environment says how they wait: on a
 /// machine that does other things too, spinning threads hold up the one they wait for, several times over.
 /// The library reads this when the program is loaded, so the program starts itself once more; call it first

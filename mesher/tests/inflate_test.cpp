@@ -1,4 +1,4 @@
-// Our decompression against zlib's compression, and against what is damaged.
+// What zlib compressed comes back, what is damaged does not.
 #include "mesher/core/inflate.hpp"
 
 #include <gtest/gtest.h>
