@@ -104,6 +104,9 @@ class Selector {
     for (std::size_t n = 0; n < 4; ++n) {
       around[n] = material_across(neighbours_[t][n]);
     }
+    if (std::all_of(around.begin(), around.end(), [own](MaterialId m) { return m == own; })) {
+      return own;  // as most
+    }
     const auto faces = [&around](MaterialId m) { return std::count(around.begin(), around.end(), m); };
     if (own != kBackground && faces(kBackground) >= 2) {
       return kBackground;
