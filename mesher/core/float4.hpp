@@ -55,6 +55,23 @@ Float4 spread(const Float4& a) {
   return Float4(__builtin_shufflevector(a.lanes, a.lanes, Lane, Lane, Lane, Lane));
 }
 
+/// Lanes in another order.
+template <int A, int B, int C, int D>
+Float4 reorder(const Float4& a) {
+  return Float4(__builtin_shufflevector(a.lanes, a.lanes, A, B, C, D));
+}
+
+/// Of lanes 0 to 2; lane 3 of the result is zero where those of the vectors are finite.
+inline Float4 cross(const Float4& a, const Float4& b) {
+  return reorder<1, 2, 0, 3>(a * reorder<1, 2, 0, 3>(b) - reorder<1, 2, 0, 3>(a) * b);
+}
+
+/// True when a lane of a is greater than that of b.
+inline bool any_greater(const Float4& a, const Float4& b) {
+  const auto greater = a.lanes > b.lanes;
+  return (greater[0] | greater[1] | greater[2] | greater[3]) != 0;
+}
+
 /// The rows of a 3x3 matrix from its columns, or the other way round.
 inline void transpose(const Float4 (&from)[3], Float4 (&to)[3]) {
   const auto a = __builtin_shufflevector(from[0].lanes, from[1].lanes, 0, 4, 1, 5);

@@ -14,9 +14,9 @@ namespace cbc3d {
 /// Cosine of the smallest dihedral angle of a tet; 2 for a flat or inverted one.
 double max_dihedral_cosine(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// True only if the tet is positively oriented and no dihedral angle's cosine is above `cosine` (>= 0, or the
-/// answer is false). It spares divisions; within rounding of the bound it may say false.
-bool has_no_cosine_above(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double cosine);
+/// True only if the tet is positively oriented and no dihedral angle's cosine is above `cosine` (>= 0). A
+/// quick test in floats that most tets pass: near the bound, and of slim tets, it says false.
+bool surely_no_cosine_above(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double cosine);
 
 /// The smallest dihedral angle of a tet, degrees; 0 for a flat or inverted tet.
 double min_dihedral_deg(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);

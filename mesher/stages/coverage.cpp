@@ -7,27 +7,20 @@
 
 namespace cbc3d {
 
-std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
-                                            const std::vector<std::array<TetId, 4>>& neighbours,
-                                            const std::vector<MaterialId>& materials) {
+namespace {
+
+/// Those of the tets [begin, end), each once.
+std::vector<SurfaceVertex> surface_vertices_of(const TetNodes& tets,
+                                               const std::vector<std::array<TetId, 4>>& neighbours,
+                                               const std::vector<MaterialId>& materials, std::size_t begin,
+                                               std::size_t end) {
   std::vector<SurfaceVertex> found;
-  std::vector<MaterialId> last;  // found of a vertex: most are of one material, and seen from many tets
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    if (materials[t] == kBackground) {
-      continue;
-    }
-    for (std::size_t n = 0; n < 4; ++n) {
+  for (std::size_t t = begin; t < end; ++t) {
+    for (std::size_t n = 0; n < 4 && materials[t] != kBackground; ++n) {
       const TetId across = neighbours[t][n];
       if (across == kNoTet || materials[across] != materials[t]) {
         for (const std::uint8_t corner : kTetFace[n]) {
-          const VertexId v = tets[t][corner];
-          if (v >= last.size()) {
-            last.resize(v + 1 + v / 2, kBackground);
-          }
-          if (last[v] != materials[t]) {
-            last[v] = materials[t];
-            found.push_back({v, materials[t]});
-          }
+          found.push_back({tets[t][corner], materials[t]});
         }
       }
     }
@@ -35,6 +28,25 @@ std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+}  // namespace
+
+std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
+                                            const std::vector<std::array<TetId, 4>>& neighbours,
+                                            const std::vector<MaterialId>& materials) {
+  constexpr std::size_t kChunk = 16384;
+  std::vector<std::vector<SurfaceVertex>> chunks((tets.size() + kChunk - 1) / kChunk);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    chunks[c] =
+        surface_vertices_of(tets, neighbours, materials, c * kChunk, std::min(tets.size(), (c + 1) * kChunk));
+  }
+  std::vector<SurfaceVertex> all;
+  for (const auto& chunk : chunks) {
+    all.insert(all.end(), chunk.begin(), chunk.end());
+  }
+  return all;
 }
 
 BoundaryCoverage::BoundaryCoverage(const LabelImage& image)

@@ -18,8 +18,8 @@ struct SurfaceVertex {
   auto operator<=>(const SurfaceVertex&) const = default;
 };
 
-/// Every (vertex, material) with the vertex on a face between that labelled material and anything else;
-/// ascending.
+/// Every (vertex, material) with the vertex on a face between that labelled material and anything else; one
+/// that is seen from tets far apart in memory may be there more than once.
 std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
                                             const std::vector<std::array<TetId, 4>>& neighbours,
                                             const std::vector<MaterialId>& materials);

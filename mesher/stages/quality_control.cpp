@@ -44,7 +44,7 @@ bool QualityControl::fails(CellId cell, const std::vector<Vec3>& before,
                            const std::vector<Vec3>& after) const {
   if (cell < mesh_.tets.size()) {
     const auto& n = mesh_.tets[cell];
-    if (has_no_cosine_above(after[n[0]], after[n[1]], after[n[2]], after[n[3]], max_cosine_)) {
+    if (surely_no_cosine_above(after[n[0]], after[n[1]], after[n[2]], after[n[3]], max_cosine_)) {
       return false;
     }
   }

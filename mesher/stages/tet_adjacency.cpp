@@ -13,9 +13,18 @@ namespace {
 using Face = std::array<VertexId, 3>;
 
 Face sorted_face(const std::array<VertexId, 4>& tet, unsigned opposite) {
-  Face face = {tet[kTetFace[opposite][0]], tet[kTetFace[opposite][1]], tet[kTetFace[opposite][2]]};
-  std::sort(face.begin(), face.end());
-  return face;
+  VertexId a = tet[kTetFace[opposite][0]];
+  VertexId b = tet[kTetFace[opposite][1]];
+  VertexId c = tet[kTetFace[opposite][2]];
+  const auto order = [](VertexId& low, VertexId& high) {
+    const VertexId least = std::min(low, high);
+    high = std::max(low, high);
+    low = least;
+  };
+  order(a, b);
+  order(b, c);
+  order(a, b);
+  return {a, b, c};
 }
 
 using Neighbours = std::vector<std::array<TetId, 4>>;
@@ -52,13 +61,20 @@ template <typename F>
 void for_each_face(const TetNodes& tets, const Neighbours& neighbours, VertexId begin, VertexId end,
                    const F& f) {
   for (std::size_t t = 0; t < tets.size(); ++t) {
+    const auto& across = neighbours[t];
+    if (std::find(across.begin(), across.end(), kUnknownTet) == across.end()) {
+      continue;
+    }
+    // The smallest node is in every face but the one opposite to it, whose smallest is the second.
     const auto& tet = tets[t];
+    const auto [low_a, high_a] = std::minmax(tet[0], tet[1]);
+    const auto [low_b, high_b] = std::minmax(tet[2], tet[3]);
+    const VertexId first = std::min(low_a, low_b);
+    const VertexId second = std::min(std::max(low_a, low_b), first == low_a ? high_a : high_b);
     for (unsigned n = 0; n < 4; ++n) {
-      if (neighbours[t][n] == kUnknownTet) {
-        const VertexId least = std::min({tet[kTetFace[n][0]], tet[kTetFace[n][1]], tet[kTetFace[n][2]]});
-        if (least >= begin && least < end) {
-          f(least, t, n);
-        }
+      const VertexId least = tet[n] == first ? second : first;
+      if (across[n] == kUnknownTet && least >= begin && least < end) {
+        f(least, t, n);
       }
     }
   }
