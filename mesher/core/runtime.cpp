@@ -42,8 +42,9 @@ std::int64_t process_peak_rss_bytes() {
 }
 
 void let_waiting_threads_sleep(char** argv) {
+  constexpr const char* kTurns = "1000";  // some 20 us: about as long as it takes to wake a thread
   if (std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr &&
-      ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0) {
+      ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0 && ::setenv("GOMP_SPINCOUNT", kTurns, 1) == 0) {
     ::execv("/proc/self/exe", argv);
   }
 }
