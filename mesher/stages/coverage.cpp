@@ -71,24 +71,116 @@ BoundaryCoverage::BoundaryCoverage(const LabelImage& image)
   }
 }
 
+namespace {
+
+/// Surface vertices in cubes, so that one near a place is found without looking at the others.
+class VertexCubes {
+ public:
+  VertexCubes(const ImageFrame& frame, const std::vector<SurfaceVertex>& surface,
+              const std::vector<Vec3>& points, double distance_mm)
+      : distance_mm_(distance_mm) {
+    // Finer cubes than a few voxels would cost memory and tell little more.
+    edge_mm_ = std::max(distance_mm, 4 * frame.spacing_mm.max_coeff());
+    std::size_t cubes = 1;
+    for (std::size_t d = 0; d < 3; ++d) {
+      size_[d] = static_cast<int>(frame.size[d] * frame.spacing_mm[static_cast<int>(d)] / edge_mm_) + 1;
+      cubes *= static_cast<std::size_t>(size_[d]);
+    }
+    first_.assign(cubes + 1, 0);
+    for (const SurfaceVertex& s : surface) {
+      ++first_[number(cube_of(points[s.vertex])) + 1];
+    }
+    for (std::size_t c = 0; c < cubes; ++c) {
+      first_[c + 1] += first_[c];
+    }
+    places_.resize(surface.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const SurfaceVertex& s : surface) {
+      places_[next[number(cube_of(points[s.vertex]))]++] = {points[s.vertex], s.material};
+    }
+  }
+
+  /// True when a vertex of the material lies within the distance of x.
+  [[nodiscard]] bool is_near(const Vec3& x, MaterialId material) const {
+    const Index3 own = cube_of(x);
+    if (is_near_in(number(own), x, material)) {
+      return true;
+    }
+    const Index3 low = cube_of(x - Vec3{distance_mm_, distance_mm_, distance_mm_});
+    const Index3 high = cube_of(x + Vec3{distance_mm_, distance_mm_, distance_mm_});
+    for (int k = low[2]; k <= high[2]; ++k) {
+      for (int j = low[1]; j <= high[1]; ++j) {
+        for (int i = low[0]; i <= high[0]; ++i) {
+          if (Index3{i, j, k} != own && is_near_in(number({i, j, k}), x, material)) {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  struct Place {
+    Vec3 at;
+    MaterialId material;
+  };
+
+  /// The cube that holds x; the nearest one for what is outside the image.
+  [[nodiscard]] Index3 cube_of(const Vec3& x) const {
+    Index3 cube;
+    for (int d = 0; d < 3; ++d) {
+      const auto axis = static_cast<std::size_t>(d);
+      cube[axis] = std::clamp(static_cast<int>(x[d] / edge_mm_), 0, size_[axis] - 1);
+    }
+    return cube;
+  }
+  [[nodiscard]] std::size_t number(const Index3& c) const {
+    return (static_cast<std::size_t>(c[2]) * static_cast<std::size_t>(size_[1]) +
+            static_cast<std::size_t>(c[1])) *
+               static_cast<std::size_t>(size_[0]) +
+           static_cast<std::size_t>(c[0]);
+  }
+  [[nodiscard]] bool is_near_in(std::size_t cube, const Vec3& x, MaterialId material) const {
+    return std::any_of(
+        places_.begin() + first_[cube], places_.begin() + first_[cube + 1], [&](const Place& place) {
+          return place.material == material && (x - place.at).squared_norm() <= distance_mm_ * distance_mm_;
+        });
+  }
+
+  double distance_mm_;
+  double edge_mm_ = 0;
+  Index3 size_{};
+  std::vector<std::uint32_t> first_;
+  std::vector<Place> places_;
+};
+
+}  // namespace
+
 void BoundaryCoverage::update(const std::vector<SurfaceVertex>& surface, const std::vector<Vec3>& points,
                               double distance_mm) {
-  for (const std::size_t v : boundary_) {
-    uncovered_.set(v);
+  const VertexCubes cubes(image_.frame, surface, points, distance_mm);
+  std::vector<std::uint8_t> covered(boundary_.size());
+#pragma omp parallel for schedule(dynamic, 1024)
+  for (std::size_t b = 0; b < boundary_.size(); ++b) {
+    const Index3 at = image_.frame.index_of(boundary_[b]);
+    covered[b] =
+        cubes.is_near(image_.frame.local_centre(at[0], at[1], at[2]), image_.voxels[boundary_[b]]) ? 1 : 0;
   }
-#pragma omp parallel for schedule(dynamic, 256)
-  for (std::size_t s = 0; s < surface.size(); ++s) {
-    cover_around(points[surface[s].vertex], surface[s].material, distance_mm);
+  uncovered_.clear();
+  uncovered_count_ = 0;
+  for (std::size_t b = 0; b < boundary_.size(); ++b) {
+    if (covered[b] == 0) {
+      uncovered_.set(boundary_[b]);
+      ++uncovered_count_;
+    }
   }
   mark_across();
 }
 
 void BoundaryCoverage::mark_across() {
   across_.clear();
-  for (const std::size_t v : boundary_) {
-    if (!uncovered_.test(v)) {
-      continue;
-    }
+  uncovered_.for_each(0, image_.frame.voxel_count(), [&](std::size_t v) {
     const Index3 at = image_.frame.index_of(v);
     for (std::size_t n = 0; n < 6; ++n) {
       Index3 across = at;
@@ -100,42 +192,12 @@ void BoundaryCoverage::mark_across() {
         }
       }
     }
-  }
-}
-
-void BoundaryCoverage::cover_around(const Vec3& centre_mm, MaterialId material, double distance_mm) {
-  const ImageFrame& frame = image_.frame;
-  Index3 low;
-  Index3 high;
-  for (int d = 0; d < 3; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
-    low[axis] = std::max(0, static_cast<int>(std::ceil((centre_mm[d] - distance_mm) / frame.spacing_mm[d])));
-    high[axis] = std::min(frame.size[axis] - 1,
-                          static_cast<int>(std::floor((centre_mm[d] + distance_mm) / frame.spacing_mm[d])));
-  }
-  for (int k = low[2]; k <= high[2]; ++k) {
-    for (int j = low[1]; j <= high[1] && low[0] <= high[0]; ++j) {
-      const std::size_t row = frame.offset(0, j, k);
-      const auto first = row + static_cast<std::size_t>(low[0]);
-      uncovered_.for_each(first, row + static_cast<std::size_t>(high[0]) + 1, [&](std::size_t v) {
-        const Vec3 centre = frame.local_centre(static_cast<int>(v - row), j, k);
-        if (image_.voxels[v] == material &&
-            (centre - centre_mm).squared_norm() <= distance_mm * distance_mm) {
-          uncovered_.reset(v);
-        }
-      });
-    }
-  }
+  });
 }
 
 bool BoundaryCoverage::wants_refinement(int j, int k, int i_begin, int i_end) const {
   const std::size_t begin = image_.frame.offset(i_begin, j, k), end = image_.frame.offset(i_end, j, k);
   return uncovered_.any(begin, end) || across_.any(begin, end);
-}
-
-std::size_t BoundaryCoverage::uncovered_count() const {
-  return static_cast<std::size_t>(std::count_if(boundary_.begin(), boundary_.end(),
-                                                [this](std::size_t v) { return uncovered_.test(v); }));
 }
 
 InterfaceCoverage::InterfaceCoverage(const LabelImage& image)

@@ -30,8 +30,8 @@ class BoundaryCoverage {
  public:
   explicit BoundaryCoverage(const LabelImage& image);
 
-  /// Renews the answers for a set of surface vertices at `points` (local mm). Parallel; cost per vertex: the
-  /// voxels within `distance_mm`.
+  /// Renews the answers for a set of surface vertices at `points` (local mm). Parallel; linear in the
+  /// boundary voxels and surface vertices.
   void update(const std::vector<SurfaceVertex>& surface, const std::vector<Vec3>& points, double distance_mm);
 
   /// True when one of the voxels [i_begin, i_end) of row (j, k) is uncovered or a face neighbour, of another
@@ -48,16 +48,16 @@ class BoundaryCoverage {
     across_.for_each(0, image_.frame.voxel_count(), tell);
   }
   /// Number of boundary voxels without a surface vertex nearby.
-  [[nodiscard]] std::size_t uncovered_count() const;
+  [[nodiscard]] std::size_t uncovered_count() const { return uncovered_count_; }
 
  private:
   void mark_across();
-  void cover_around(const Vec3& centre_mm, MaterialId material, double distance_mm);
 
   const LabelImage& image_;
   VoxelBits uncovered_;                // boundary voxels only
   VoxelBits across_;                   // face neighbours of uncovered voxels, of another material
   std::vector<std::size_t> boundary_;  // offsets of the boundary voxels, ascending
+  std::size_t uncovered_count_ = 0;
 };
 
 /// The same question asked for every interface: a boundary voxel with face neighbours of several materials
