@@ -160,17 +160,31 @@ std::uint8_t open_faces(const LabelImage& image, int i, int j, int k) {
   return static_cast<std::uint8_t>(faces);
 }
 
+/// The materials of the 26-neighbourhood. Mostly there are runs of the same, so that few are inserted.
 LabelSet materials_around(const LabelImage& image, int i, int j, int k) {
+  const auto& size = image.frame.size;
   LabelSet set;
   MaterialId last = image.at(i, j, k);
   set.insert(last);
+  const auto add = [&](MaterialId material) {
+    if (material != last) {
+      set.insert(material);
+      last = material;
+    }
+  };
+  const bool inside = i > 0 && j > 0 && k > 0 && i + 1 < size[0] && j + 1 < size[1] && k + 1 < size[2];
   for (int dk = -1; dk <= 1; ++dk) {
     for (int dj = -1; dj <= 1; ++dj) {
-      for (int di = -1; di <= 1; ++di) {
-        const MaterialId material = image.at_or_background(i + di, j + dj, k + dk);
-        if (material != last) {  // mostly there are runs of the same
-          set.insert(material);
-          last = material;
+      if (inside) {
+        image.voxels.visit([&](const auto* voxels) {
+          const auto* const row = voxels + image.frame.offset(i - 1, j + dj, k + dk);
+          add(row[0]);
+          add(row[1]);
+          add(row[2]);
+        });
+      } else {
+        for (int di = -1; di <= 1; ++di) {
+          add(image.at_or_background(i + di, j + dj, k + dk));
         }
       }
     }
