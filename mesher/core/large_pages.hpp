@@ -4,6 +4,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -20,7 +21,8 @@ struct LargePages {
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    void* const memory = bytes < kLeast ? std::malloc(bytes) : allocate_large(bytes);
+    void* const memory =
+        bytes < kLeast ? std::malloc(std::max<std::size_t>(bytes, 1)) : allocate_large(bytes);
     if (memory == nullptr) {
       throw std::bad_alloc();
     }

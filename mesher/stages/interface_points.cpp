@@ -30,7 +30,7 @@ void for_each_other(const LabelImage& image, int i, int j, int k, MaterialId own
 class VertexGrid {
  public:
   VertexGrid(const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets, double cell_mm)
-      : vertices_(vertices), cell_mm_(cell_mm) {
+      : cell_mm_(cell_mm) {
     const std::vector<VertexId> chosen =
         indices_where(vertices.size(), [&](std::size_t v) { return sets[v].size > 1; });
     entries_.resize(chosen.size());
@@ -75,7 +75,6 @@ class VertexGrid {
            (static_cast<std::uint64_t>(c[1] + kShift) << 21) | static_cast<std::uint64_t>(c[0] + kShift);
   }
 
-  const std::vector<Vec3>& vertices_;
   double cell_mm_;
   std::vector<Entry> entries_;
 };
