@@ -74,6 +74,22 @@ bool meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec
   return (u >= -tiny && v >= -tiny && w >= -tiny) || (u <= tiny && v <= tiny && w <= tiny);
 }
 
+bool has(const Facet& f, VertexId v) {
+  return f[0] == v || f[1] == v || f[2] == v;
+}
+
+/// A side of f meets facet g; sides that end in a vertex of g only touch it there.
+bool sides_meet(const std::vector<Vec3>& points, const Facet& f, const Facet& g) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexId p = f[i];
+    const VertexId q = f[(i + 1) % 3];
+    if (!has(g, p) && !has(g, q) && meets(points[p], points[q], points[g[0]], points[g[1]], points[g[2]])) {
+      return true;
+    }
+  }
+  return false;
+}
+
 class CrossingFinder {
  public:
   CrossingFinder(const std::vector<Vec3>& points, const std::vector<Facet>& facets)
@@ -165,30 +181,8 @@ class CrossingFinder {
     });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::erase_if(near, [&](std::uint32_t g) { return !cross(facets_[f], facets_[g]); });
+    std::erase_if(near, [&](std::uint32_t g) { return !facets_cross(points_, facets_[f], facets_[g]); });
     return near;
-  }
-
-  [[nodiscard]] bool cross(const Facet& f, const Facet& g) const {
-    const auto shared = std::count_if(f.begin(), f.end(), [&](VertexId v) { return has(g, v); });
-    return shared < 2 && (sides_meet(f, g) || sides_meet(g, f));
-  }
-
-  static bool has(const Facet& f, VertexId v) {
-    return f[0] == v || f[1] == v || f[2] == v;
-  }
-
-  /// A side of f meets facet g; sides that end in a vertex of g only touch it there.
-  [[nodiscard]] bool sides_meet(const Facet& f, const Facet& g) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const VertexId p = f[i];
-      const VertexId q = f[(i + 1) % 3];
-      if (!has(g, p) && !has(g, q) &&
-          meets(points_[p], points_[q], points_[g[0]], points_[g[1]], points_[g[2]])) {
-        return true;
-      }
-    }
-    return false;
   }
 
   const std::vector<Vec3>& points_;
@@ -234,6 +228,11 @@ class Retreat {
 std::vector<std::array<std::uint32_t, 2>> crossing_facets(
     const std::vector<Vec3>& points, const std::vector<std::array<VertexId, 3>>& facets) {
   return CrossingFinder(points, facets).find();
+}
+
+bool facets_cross(const std::vector<Vec3>& points, const Facet& f, const Facet& g) {
+  const auto shared = std::count_if(f.begin(), f.end(), [&](VertexId v) { return has(g, v); });
+  return shared < 2 && (sides_meet(points, f, g) || sides_meet(points, g, f));
 }
 
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,

@@ -19,6 +19,10 @@ struct CrossingOptions {
 std::vector<std::array<std::uint32_t, 2>> crossing_facets(const std::vector<Vec3>& points,
                                                           const std::vector<std::array<VertexId, 3>>& facets);
 
+/// The same of two facets.
+bool facets_cross(const std::vector<Vec3>& points, const std::array<VertexId, 3>& f,
+                  const std::array<VertexId, 3>& g);
+
 /// Draws the vertices of crossing facets back into their own tets until nothing crosses; their points stay
 /// within reach. Returns the pairs left.
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
