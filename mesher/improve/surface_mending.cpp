@@ -44,7 +44,12 @@ class Workbench {
         options_(options),
         meter_(complex_, guide),
         background_counts_(std::find(mesh.materials.begin(), mesh.materials.end(), kBackground) !=
-                           mesh.materials.end()) {}
+                           mesh.materials.end()) {
+    tets_of_.resize(guide.places.label_of.size());
+    for (const MaterialId material : mesh.materials) {
+      ++tets_of_[material];
+    }
+  }
 
   /// What steps do.
   struct Outcome {
@@ -68,6 +73,8 @@ class Workbench {
         std::swap(mesh_.points[step.vertex], step.at);
       } else {
         const MaterialId was = complex_.material(step.tet);
+        --tets_of_[was];
+        ++tets_of_[step.to];
         complex_.give(step.tet, step.to);
         step.to = was;
       }
@@ -84,10 +91,10 @@ class Workbench {
   std::optional<Outcome> outcome_of(Steps steps) {
     ++trials_;
     const double floor = std::min(options_.goal_sine_squared, worst_angle(steps));
-    const std::vector<MaterialId> givers = givers_of(steps);
+    const bool ends = end_a_material(steps);
     const FaultMeter::Scope scope = meter_.scope_of(touched_by(steps));
     swap(steps);
-    const bool may = worst_angle(steps) >= floor && are_there(givers, scope.vertices);
+    const bool may = !ends && worst_angle(steps) >= floor;
     swap(steps);
     if (!may) {
       return std::nullopt;
@@ -177,21 +184,17 @@ class Workbench {
     return vertices;
   }
 
-  [[nodiscard]] std::vector<MaterialId> givers_of(const Steps& steps) const {
-    std::vector<MaterialId> givers;
-    for (const Step& step : steps) {
-      if (step.tet != kNoTet && complex_.material(step.tet) != kBackground) {
-        givers.push_back(complex_.material(step.tet));
+  /// True when steps would take a material's last tet.
+  [[nodiscard]] bool end_a_material(const Steps& steps) const {
+    return std::any_of(steps.begin(), steps.end(), [&](const Step& step) {
+      if (step.tet == kNoTet || complex_.material(step.tet) == kBackground) {
+        return false;
       }
-    }
-    return givers;
-  }
-
-  [[nodiscard]] bool are_there(const std::vector<MaterialId>& materials,
-                               const std::vector<VertexId>& vertices) const {
-    return std::all_of(materials.begin(), materials.end(), [&](MaterialId m) {
-      return std::any_of(vertices.begin(), vertices.end(),
-                         [&](VertexId v) { return complex_.set(v).has(m); });
+      const MaterialId material = complex_.material(step.tet);
+      const auto taken = std::count_if(steps.begin(), steps.end(), [&](const Step& other) {
+        return other.tet != kNoTet && complex_.material(other.tet) == material;
+      });
+      return static_cast<std::size_t>(taken) >= tets_of_[material];
     });
   }
 
@@ -249,7 +252,8 @@ class Workbench {
   const SurfaceGuide& guide_;
   const MendOptions& options_;
   FaultMeter meter_;
-  bool background_counts_;  // it is meshed
+  bool background_counts_;            // it is meshed
+  std::vector<std::size_t> tets_of_;  // each material
   std::size_t trials_ = 0;
 };
 
