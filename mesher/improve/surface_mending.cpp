@@ -24,9 +24,13 @@ Step move(VertexId v, const Vec3& to) {
 const std::vector<Vec3>& compass() {
   static const std::vector<Vec3> kDirections = [] {
     std::vector<Vec3> directions;
-    for (int n = 0; n < 27; ++n) {
-      if (n != 13) {
-        directions.push_back(Vec3{1.0 * (n % 3 - 1), 1.0 * (n / 3 % 3 - 1), 1.0 * (n / 9 - 1)}.normalized());
+    for (const double z : {-1.0, 0.0, 1.0}) {
+      for (const double y : {-1.0, 0.0, 1.0}) {
+        for (const double x : {-1.0, 0.0, 1.0}) {
+          if (x != 0 || y != 0 || z != 0) {
+            directions.push_back(Vec3{x, y, z}.normalized());
+          }
+        }
       }
     }
     return directions;

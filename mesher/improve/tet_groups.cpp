@@ -89,10 +89,8 @@ std::vector<TetGroup> tet_groups_at(const LabelledComplex& complex, const std::v
     tets.insert(tets.end(), complex.star(v).begin(), complex.star(v).end());
   }
   sort_once(tets);
-  std::vector<TetGroup> connected;
-  for (const TetId t : tets) {
-    connected.push_back({t});
-  }
+  std::vector<TetGroup> connected(tets.size());
+  std::transform(tets.begin(), tets.end(), connected.begin(), [](TetId t) { return TetGroup{t}; });
   for (std::size_t size = 1; size <= most_tets && groups.size() < kMostGroups; ++size) {
     groups.insert(groups.end(), connected.begin(), connected.end());
     connected = size < most_tets ? grown(complex, tets, connected) : connected;

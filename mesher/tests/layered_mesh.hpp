@@ -14,9 +14,11 @@ inline MaterialMesh two_layers(int n, double level) {
   const auto vertex = [&](int i, int j, int k) {
     return static_cast<VertexId>((k * (n + 1) + j) * (n + 1) + i);
   };
-  for (int k = 0; k <= n; ++k)
-    for (int j = 0; j <= n; ++j)
+  for (int k = 0; k <= n; ++k) {
+    for (int j = 0; j <= n; ++j) {
       for (int i = 0; i <= n; ++i) mesh.points.push_back({1.0 * i, 1.0 * j, 1.0 * k});
+    }
+  }
   constexpr std::array<std::array<int, 3>, 6> kOrders = {
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   for (int cube = 0; cube < n * n * n; ++cube) {

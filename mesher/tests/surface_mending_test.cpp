@@ -24,9 +24,11 @@ constexpr double kNear = 0.6;
 /// Boundary voxels on the plane between the layers, one a square.
 std::vector<InterfacePoint> points_on_plane() {
   std::vector<InterfacePoint> points;
-  for (int j = 0; j < kSize; ++j)
-    for (int i = 0; i < kSize; ++i)
+  for (int j = 0; j < kSize; ++j) {
+    for (int i = 0; i < kSize; ++i) {
       points.push_back({{static_cast<float>(i + 0.5), static_cast<float>(j + 0.5), float{kPlane}}, 1, 2});
+    }
+  }
   return points;
 }
 
@@ -64,12 +66,13 @@ MaterialMesh with_lump(unsigned seed, std::size_t tets) {
 /// Vertices on the surface between the layers that are off their plane, by faces alone.
 std::size_t strays(const MaterialMesh& mesh) {
   std::set<VertexId> off;
-  for (const auto& face : testing::surface_of_label(mesh.tets, mesh.materials, MaterialId{1}))
+  for (const auto& face : testing::surface_of_label(mesh.tets, mesh.materials, MaterialId{1})) {
     for (const VertexId v : face) {
       const Vec3& p = mesh.points[v];
       const bool inside = std::min({p.x, p.y, p.z, kSize - p.x, kSize - p.y, kSize - p.z}) > 0;
       if (inside && std::fabs(p.z - kPlane) > kNear) off.insert(v);
     }
+  }
   return off.size();
 }
 
@@ -272,9 +275,11 @@ TEST(MendSurfaces, ALonelyBoundaryVoxelIsReached) {
   EXPECT_GT(report.faults, 0U);
   EXPECT_EQ(report.faults_left, 0U);
   double nearest = 1e9;
-  for (const auto& face : testing::surface_of_label(mesh.tets, mesh.materials, MaterialId{1}))
-    for (const VertexId v : face)
+  for (const auto& face : testing::surface_of_label(mesh.tets, mesh.materials, MaterialId{1})) {
+    for (const VertexId v : face) {
       nearest = std::min(nearest, (mesh.points[v] - points.back().centre()).norm());
+    }
+  }
   EXPECT_LE(nearest, 0.75);
   EXPECT_EQ(faults(mesh), 0U);
 }
