@@ -235,6 +235,40 @@ bool facets_cross(const std::vector<Vec3>& points, const Facet& f, const Facet& 
   return shared < 2 && (sides_meet(points, f, g) || sides_meet(points, g, f));
 }
 
+namespace {
+
+/// True when x, seen along edge a, b, lies between c and d.
+bool lies_between(const std::vector<Vec3>& points, VertexId a, VertexId b, VertexId c, VertexId d,
+                  VertexId x) {
+  const auto same_side = [&](VertexId with, VertexId of) {
+    const double side = six_volumes(points[a], points[b], points[with], points[x]);
+    const double side_of = six_volumes(points[a], points[b], points[with], points[of]);
+    return side * side_of > 1e-9 * side_of * side_of;
+  };
+  return x != c && x != d && same_side(c, d) && same_side(d, c);
+}
+
+VertexId other_than(const Facet& f, VertexId a, VertexId b) {
+  return f[0] != a && f[0] != b ? f[0] : f[1] != a && f[1] != b ? f[1] : f[2];
+}
+
+}  // namespace
+
+bool facets_fold(const std::vector<Vec3>& points, const Facet& f, VertexId behind_f, const Facet& g,
+                 VertexId behind_g) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexId a = f[i];
+    const VertexId b = f[(i + 1) % 3];
+    if (has(g, a) && has(g, b)) {
+      const VertexId c = other_than(f, a, b);
+      const VertexId d = other_than(g, a, b);
+      return c != d &&
+             (lies_between(points, a, b, c, behind_f, d) || lies_between(points, a, b, d, behind_g, c));
+    }
+  }
+  return false;
+}
+
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
                                const CrossingOptions& options) {
   std::vector<std::array<std::uint32_t, 2>> pairs;

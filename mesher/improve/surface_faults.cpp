@@ -42,7 +42,8 @@ bool SurfaceFaults::is_better_than(const SurfaceFaults& other, bool may_trade) c
   const bool shape_no_worse =
       may_trade ? shape() <= other.shape() : pinches <= other.pinches && cuts <= other.cuts;
   const bool no_worse = shape_no_worse && far <= other.far && lonely <= other.lonely;
-  return no_worse && (shape() < other.shape() || far < other.far - kTiny || lonely < other.lonely - kTiny);
+  return no_worse && (shape() < other.shape() || far < other.far - kTiny || lonely < other.lonely - kTiny ||
+                      folds < other.folds);
 }
 
 std::vector<VertexId> ring_of(const LabelledComplex& complex, const std::vector<VertexId>& vertices) {
@@ -153,7 +154,7 @@ SurfaceFaults FaultMeter::measure(const Scope& scope, std::size_t most) const {
   SurfaceFaults faults;
   faults.pinches = pinches(scope.vertices);
   if (faults.pinches <= most) {
-    faults.cuts = cuts(scope.vertices);
+    count_cuts_and_folds(scope.vertices, faults);
     faults.far = far(scope.vertices);
     faults.lonely = lonely(scope);
   }
@@ -189,6 +190,7 @@ double FaultMeter::far(const std::vector<VertexId>& vertices) const {
 
 FaultMeter::OuterFacet FaultMeter::facet(TetId t, std::size_t n) const {
   OuterFacet facet{};
+  facet.behind = complex_.mesh().tets[t][n];
   Box box;
   for (std::size_t i = 0; i < 3; ++i) {
     facet.nodes[i] = complex_.mesh().tets[t][kTetFace[n][i]];
@@ -200,7 +202,7 @@ FaultMeter::OuterFacet FaultMeter::facet(TetId t, std::size_t n) const {
   return facet;
 }
 
-std::size_t FaultMeter::cuts(const std::vector<VertexId>& vertices) const {
+void FaultMeter::count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceFaults& faults) const {
   const auto is_active = [&](const OuterFacet& f) {
     return has(vertices, f.nodes[0]) || has(vertices, f.nodes[1]) || has(vertices, f.nodes[2]);
   };
@@ -220,16 +222,17 @@ std::size_t FaultMeter::cuts(const std::vector<VertexId>& vertices) const {
   std::copy_if(facets_.begin(), facets_.end(), std::back_inserter(facets), [&](const OuterFacet& f) {
     return boxes_meet(f.low, f.high, box.low, box.high) && !is_active(f);
   });
-  std::size_t sum = 0;
-  for (std::size_t f = 0; f < active; ++f) {
-    for (std::size_t g = f + 1; g < facets.size(); ++g) {
-      sum += boxes_meet(facets[f].low, facets[f].high, facets[g].low, facets[g].high) &&
-                     facets_cross(complex_.mesh().points, facets[f].nodes, facets[g].nodes)
-                 ? 1
-                 : 0;
+  const std::vector<Vec3>& points = complex_.mesh().points;
+  for (std::size_t i = 0; i < active; ++i) {
+    const OuterFacet& f = facets[i];
+    for (std::size_t j = i + 1; j < facets.size(); ++j) {
+      const OuterFacet& g = facets[j];
+      if (boxes_meet(f.low, f.high, g.low, g.high)) {
+        faults.cuts += facets_cross(points, f.nodes, g.nodes) ? 1 : 0;
+        faults.folds += facets_fold(points, f.nodes, f.behind, g.nodes, g.behind) ? 1 : 0;
+      }
     }
   }
-  return sum;
 }
 
 bool FaultMeter::is_on(VertexId v, std::uint32_t point, bool outer) const {
@@ -291,20 +294,63 @@ namespace {
 
 using Seeds = std::vector<std::vector<VertexId>>;
 
-void add_cuts(const LabelledComplex& complex, Seeds& faults) {
-  const MaterialMesh& mesh = complex.mesh();
+struct OuterFacets {
   std::vector<std::array<VertexId, 3>> facets;
+  std::vector<VertexId> behind;
+};
+
+OuterFacets outer_facets(const LabelledComplex& complex) {
+  const MaterialMesh& mesh = complex.mesh();
+  OuterFacets outer;
   for (TetId t = 0; t < mesh.tets.size(); ++t) {
     for (std::size_t n = 0; complex.material(t) != kBackground && n < 4; ++n) {
       if (complex.across(t, n) == kBackground) {
         const auto& face = kTetFace[n];
-        facets.push_back({mesh.tets[t][face[0]], mesh.tets[t][face[1]], mesh.tets[t][face[2]]});
+        outer.facets.push_back({mesh.tets[t][face[0]], mesh.tets[t][face[1]], mesh.tets[t][face[2]]});
+        outer.behind.push_back(mesh.tets[t][n]);
       }
     }
   }
-  for (const auto& [f, g] : crossing_facets(mesh.points, facets)) {
-    std::vector<VertexId> seeds(facets[f].begin(), facets[f].end());
-    seeds.insert(seeds.end(), facets[g].begin(), facets[g].end());
+  return outer;
+}
+
+/// Pairs of facets that fold over a common edge.
+std::vector<std::array<std::uint32_t, 2>> folded_facets(const std::vector<Vec3>& points,
+                                                        const OuterFacets& outer) {
+  struct Side {
+    VertexId low, high;
+    std::uint32_t facet;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * outer.facets.size());
+  for (std::uint32_t f = 0; f < outer.facets.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(outer.facets[f][i], outer.facets[f][(i + 1) % 3]);
+      sides.push_back({low, high, f});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    for (std::size_t o = s + 1;
+         o < sides.size() && sides[o].low == sides[s].low && sides[o].high == sides[s].high; ++o) {
+      const std::uint32_t f = sides[s].facet;
+      const std::uint32_t g = sides[o].facet;
+      if (facets_fold(points, outer.facets[f], outer.behind[f], outer.facets[g], outer.behind[g])) {
+        pairs.push_back({f, g});
+      }
+    }
+  }
+  return pairs;
+}
+
+/// The vertices of each pair.
+void add_pairs(const OuterFacets& outer, const std::vector<std::array<std::uint32_t, 2>>& pairs,
+               Seeds& faults) {
+  for (const auto& [f, g] : pairs) {
+    std::vector<VertexId> seeds(outer.facets[f].begin(), outer.facets[f].end());
+    seeds.insert(seeds.end(), outer.facets[g].begin(), outer.facets[g].end());
     std::sort(seeds.begin(), seeds.end());
     seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
     faults.push_back(std::move(seeds));
@@ -380,7 +426,9 @@ void add_lonely(const LabelledComplex& complex, const SurfaceGuide& guide, Seeds
 
 FaultList find_surface_faults(const LabelledComplex& complex, const SurfaceGuide& guide) {
   FaultList faults;
-  add_cuts(complex, faults.seeds);
+  const OuterFacets outer = outer_facets(complex);
+  add_pairs(outer, crossing_facets(complex.mesh().points, outer.facets), faults.seeds);
+  add_pairs(outer, folded_facets(complex.mesh().points, outer), faults.folds);
   faults.cuts = faults.seeds.size();
   add_vertices(complex, guide, faults.seeds);
   add_lonely(complex, guide, faults.seeds);

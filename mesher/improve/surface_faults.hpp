@@ -3,6 +3,8 @@
 //
 // Notation: pinch   a vertex where the surface of a label is no manifold;
 //           cut     two outer facets that cross or touch where they share no vertex;
+//           fold    two outer facets that share an edge, one within the tet behind the other, as at a gap of
+//                   one tet that is inside out: no facets cut each other there, but tets overlap;
 //           far     a surface vertex too far from the boundary voxels of one of its labels;
 //           lonely  a boundary voxel too far from the surface vertices of its label.
 #pragma once
@@ -18,11 +20,12 @@ namespace cbc3d {
 struct SurfaceFaults {
   std::size_t pinches = 0, cuts = 0;
   double far = 0, lonely = 0;  ///< sums of distances, in units of the limit, of those beyond it
+  std::size_t folds = 0;
 
   [[nodiscard]] std::size_t shape() const { return pinches + cuts; }
-  [[nodiscard]] bool none() const { return shape() == 0 && far == 0 && lonely == 0; }
+  [[nodiscard]] bool none_but_folds() const { return shape() == 0 && far == 0 && lonely == 0; }
   /// True when nothing is worse and something is better; with `may_trade` a cut may become a pinch, or a
-  /// pinch a cut.
+  /// pinch a cut. Folds count where all else is equal.
   [[nodiscard]] bool is_better_than(const SurfaceFaults& other, bool may_trade) const;
 };
 
@@ -82,6 +85,7 @@ std::vector<VertexId> ring_of(const LabelledComplex& complex, const std::vector<
 /// then what is nearest to lonely points. One fault may be there more than once.
 struct FaultList {
   std::vector<std::vector<VertexId>> seeds;
+  std::vector<std::vector<VertexId>> folds;
   std::size_t cuts = 0;
 };
 /// Parallel.
@@ -117,6 +121,7 @@ class FaultMeter {
  private:
   struct OuterFacet {
     std::array<VertexId, 3> nodes;
+    VertexId behind;  // the tet's fourth vertex
     Vec3 low, high;
   };
   void make_grids();
@@ -125,7 +130,7 @@ class FaultMeter {
   void add_facets(std::vector<TetId>& tets, std::vector<OuterFacet>& facets) const;
   [[nodiscard]] OuterFacet facet(TetId t, std::size_t n) const;
   [[nodiscard]] bool is_on(VertexId v, std::uint32_t point, bool outer) const;
-  [[nodiscard]] std::size_t cuts(const std::vector<VertexId>& vertices) const;
+  void count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceFaults& faults) const;
   [[nodiscard]] double lonely(const Scope& scope) const;
 
   const LabelledComplex& complex_;

@@ -100,6 +100,9 @@ TEST(SurfaceFaults, AreBetterOnlyWhereNothingIsWorse) {
   EXPECT_FALSE((SurfaceFaults{3, 1, 1.5, 1.2}.is_better_than(base, false)));
   EXPECT_TRUE((SurfaceFaults{3, 1, 1.5, 1.2}.is_better_than(base, true)));  // a cut for a pinch
   EXPECT_FALSE((SurfaceFaults{3, 3, 0, 0}.is_better_than(base, true)));
+  EXPECT_TRUE((SurfaceFaults{2, 2, 1.5, 1.2, 9}.is_better_than(base, false)));  // folds count last
+  EXPECT_FALSE((SurfaceFaults{3, 3, 1.5, 1.2, 0}.is_better_than({2, 3, 1.5, 1.2, 4}, true)));
+  EXPECT_TRUE((SurfaceFaults{2, 3, 1.5, 1.2, 3}.is_better_than({2, 3, 1.5, 1.2, 4}, false)));
 }
 
 TEST(SurfaceFaults, NoneInCleanLayersAndEachKindWhereItIs) {
@@ -282,6 +285,54 @@ TEST(MendSurfaces, ALonelyBoundaryVoxelIsReached) {
   }
   EXPECT_LE(nearest, 0.75);
   EXPECT_EQ(faults(mesh), 0U);
+}
+
+TEST(FacetsFold, WhereOneLiesInTheTetBehindTheOther) {
+  // Facet 0 1 2 with the tet's vertex 3 below it, and facets at edge 0 1 whose tets lie on their far side.
+  std::vector<Vec3> points = {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {0, 0.5, -1}, {}, {}};
+  const auto fold = [&](const Vec3& to, const Vec3& behind) {
+    points[4] = to;
+    points[5] = behind;
+    return facets_fold(points, {0, 1, 2}, 3, {0, 1, 4}, 5);
+  };
+  EXPECT_FALSE(fold({-1, 0.5, 0.5}, {-1, 0.5, -0.5}));
+  EXPECT_FALSE(fold({0.5, 0.5, 0.1}, {-1, 0.5, 0.5}));            // a narrow gap between the two
+  EXPECT_TRUE(fold({0.5, 0.5, -0.1}, {-1, 0.5, 0.5}));            // none: one within the other's tet
+  EXPECT_TRUE(fold({-1, 0.5, 1}, {1, 0.5, -0.1}));                // likewise the other way round
+  EXPECT_FALSE(facets_fold(points, {0, 1, 2}, 3, {0, 1, 3}, 2));  // two facets of one tet
+  EXPECT_FALSE(facets_fold(points, {0, 1, 2}, 3, {0, 4, 5}, 1));  // one vertex in common
+}
+
+/// Three tets round an axis above a gap, whose lowest vertex is at `level`, and one below it.
+MaterialMesh pancake(double level) {
+  MaterialMesh mesh;
+  mesh.points = {{1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0}, {0, 0, 1}, {0, 0, -1}, {0, 0, level}};
+  mesh.tets = {{5, 0, 1, 3}, {5, 1, 2, 3}, {5, 2, 0, 3}, {0, 2, 1, 4}};
+  mesh.materials.assign(4, 1);
+  return mesh;
+}
+
+TEST(MendSurfaces, AGapThatIsInsideOutIsTurnedBack) {
+  const ImagePlaces image = plane_at(kSize, kPlane, 10);  // everything is near its boundary
+  const std::vector<InterfacePoint> none;
+  const SurfaceGuide guide{none, image, 1};
+  for (const double level : {0.05, -0.05}) {
+    MaterialMesh mesh = pancake(level);
+    ASSERT_GT(worst_angle(mesh), 0);
+    EXPECT_EQ(find_surface_faults(LabelledComplex(mesh, image.label_of), guide).folds.empty(), level > 0);
+  }
+  // The rim of the gap is pinched, which no step of a vertex mends: what is under test is the gap.
+  MaterialMesh mesh = pancake(-0.05);
+  MendOptions steps_alone = options(1);
+  steps_alone.largest_mm3 = 0;
+  const double worst = worst_angle(mesh);
+  const MendReport report = mend_surfaces(mesh, none, image, steps_alone);
+  EXPECT_GE(report.folds, 3U);
+  EXPECT_EQ(report.folds_left, 0U);
+  EXPECT_EQ(report.cuts_left, 0U);
+  EXPECT_EQ(report.tets_relabelled, 0U);
+  EXPECT_GT(six_volumes(mesh.points[0], mesh.points[1], mesh.points[2], mesh.points[5]), 0);
+  EXPECT_GE(worst_angle(mesh), std::min(worst, options(1).goal_sine_squared));
 }
 
 TEST(MendSurfaces, TipsAcrossAGapNoLongerCut) {
