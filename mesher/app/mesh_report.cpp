@@ -158,6 +158,7 @@ nlohmann::json improvement_json(const ImproveReport& improve) {
           {"boundary_points", improve.boundary_points},
           {"uncovered_points", improve.uncovered_points},
           {"crossings_left", improve.crossings_left},
+          {"surface_faults_left", improve.faults_left},
           {"seconds", parts}};
 }
 

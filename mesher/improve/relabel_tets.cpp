@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesher/improve/labelled_complex.hpp"
 #include "mesher/improve/mesh_star.hpp"
 #include "mesher/improve/surface_crossings.hpp"
 
@@ -9,114 +10,6 @@ namespace cbc3d {
 namespace {
 
 using Facet = std::array<VertexId, 3>;
-
-/// The mesh while tets change hands: tets that are left out stay as background, so who neighbours whom does
-/// not change.
-class LabelledComplex {
- public:
-  LabelledComplex(MaterialMesh& mesh, const std::vector<MaterialId>& label_of)
-      : mesh_(mesh),
-        label_of_(label_of),
-        neighbours_(tet_neighbours(mesh.tets, mesh.points.size())),
-        around_(tets_of_vertices(mesh.tets, mesh.points.size())),
-        sets_(vertex_materials(mesh.tets, mesh.materials, neighbours_, mesh.points.size())) {}
-
-  [[nodiscard]] const MaterialMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const MaterialSet& set(VertexId v) const { return sets_[v]; }
-  [[nodiscard]] std::span<const TetId> star(VertexId v) const { return star_of(around_, v); }
-  [[nodiscard]] MaterialId material(TetId t) const { return mesh_.materials[t]; }
-  [[nodiscard]] MaterialId across(TetId t, std::size_t n) const {
-    return neighbours_[t][n] == kNoTet ? kBackground : mesh_.materials[neighbours_[t][n]];
-  }
-  void give(TetId t, MaterialId material) { mesh_.materials[t] = material; }
-
-  void renew_set(VertexId v) {
-    MaterialSet& set = sets_[v];
-    set = {};
-    for (const TetId t : star(v)) {
-      set.add(mesh_.materials[t]);
-      for (std::size_t n = 0; n < 4; ++n) {
-        if (mesh_.tets[t][n] != v && neighbours_[t][n] == kNoTet) {
-          set.add(kBackground);
-        }
-      }
-    }
-  }
-
-  /// True when the facets of a material's label at v, those between it and all else, go once round v, or
-  /// there are none.
-  [[nodiscard]] bool is_manifold_at(VertexId v, MaterialId material) const {
-    const MaterialId label = label_of_[material];
-    LinkEdges link;
-    for (const TetId t : star(v)) {
-      for (std::size_t n = 0; label_of_[mesh_.materials[t]] == label && n < 4; ++n) {
-        if (mesh_.tets[t][n] != v && label_of_[across(t, n)] != label) {
-          add_link_edge(t, n, v, link);
-        }
-      }
-    }
-    if (material == kBackground) {
-      add_open_faces(v, link);
-    }
-    return link.empty() || is_one_cycle(link);
-  }
-
- private:
-  using LinkEdges = std::vector<std::array<VertexId, 2>>;
-
-  void add_link_edge(TetId t, std::size_t n, VertexId v, LinkEdges& link) const {
-    std::array<VertexId, 2> edge{};
-    std::size_t count = 0;
-    for (const std::uint8_t corner : kTetFace[n]) {
-      if (mesh_.tets[t][corner] != v) {
-        edge[count++] = mesh_.tets[t][corner];
-      }
-    }
-    link.push_back(edge);
-  }
-
-  /// Facets of the outside: faces without neighbour.
-  void add_open_faces(VertexId v, LinkEdges& link) const {
-    for (const TetId t : star(v)) {
-      for (std::size_t n = 0; mesh_.materials[t] != kBackground && n < 4; ++n) {
-        if (mesh_.tets[t][n] != v && neighbours_[t][n] == kNoTet) {
-          add_link_edge(t, n, v, link);
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] static bool is_one_cycle(const LinkEdges& link) {
-    const VertexId first = link[0][0];
-    VertexId at = link[0][1];
-    std::size_t used = 0;
-    for (std::size_t steps = 1; steps <= link.size(); ++steps) {
-      std::size_t degree = 0;
-      std::size_t next = used;
-      for (std::size_t e = 0; e < link.size(); ++e) {
-        if (link[e][0] == at || link[e][1] == at) {
-          ++degree;
-          next = e == used ? next : e;
-        }
-      }
-      if (degree != 2) {
-        return false;
-      }
-      if (at == first) {
-        return steps == link.size();
-      }
-      used = next;
-      at = link[next][0] == at ? link[next][1] : link[next][0];
-    }
-    return false;
-  }
-
-  MaterialMesh& mesh_;
-  const std::vector<MaterialId>& label_of_;
-  std::vector<std::array<TetId, 4>> neighbours_;
-  VertexTets around_;
-  std::vector<MaterialSet> sets_;
-};
 
 class Relabeller {
  public:
@@ -135,6 +28,7 @@ class Relabeller {
         report_.strays = strays;
         report_.crossings = crossings;
       }
+      report_.faults_left = pinches + strays + crossings;
       if (report_.tets_relabelled + report_.vertices_moved == before) {
         break;
       }
@@ -458,19 +352,6 @@ class Relabeller {
   std::vector<std::uint8_t> pinched_;  // likewise: the outer surface was no manifold there
   std::vector<std::pair<std::uint32_t, VertexId>> new_hosts_;
 };
-
-/// Takes the background tets out; vertices keep their numbers.
-void remove_background(MaterialMesh& mesh) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (mesh.materials[t] != kBackground) {
-      mesh.tets[kept] = mesh.tets[t];
-      mesh.materials[kept++] = mesh.materials[t];
-    }
-  }
-  mesh.tets.resize(kept);
-  mesh.materials.resize(kept);
-}
 
 }  // namespace
 

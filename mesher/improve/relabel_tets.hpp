@@ -42,6 +42,7 @@ struct RelabelReport {
   std::size_t crossings = 0;       ///< pairs of outer facets that cut each other, before
   std::size_t vertices_moved = 0;  ///< strays that a small step has mended
   std::size_t tets_relabelled = 0;
+  std::size_t faults_left = 0;  ///< strays, pinches and crossings that the last round has found
 };
 
 /// Relabels tets of `mesh`; those that become background are taken out. Vertices keep their numbers.

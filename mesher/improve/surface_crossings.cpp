@@ -76,6 +76,22 @@ bool meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec
   return (u >= -tiny && v >= -tiny && w >= -tiny) || (u <= tiny && v <= tiny && w <= tiny);
 }
 
+bool has(const Facet& f, VertexId v) {
+  return f[0] == v || f[1] == v || f[2] == v;
+}
+
+/// A side of f meets facet g; sides that end in a vertex of g only touch it there.
+bool sides_meet(const std::vector<Vec3>& points, const Facet& f, const Facet& g) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexId p = f[i];
+    const VertexId q = f[(i + 1) % 3];
+    if (!has(g, p) && !has(g, q) && meets(points[p], points[q], points[g[0]], points[g[1]], points[g[2]])) {
+      return true;
+    }
+  }
+  return false;
+}
+
 class CrossingFinder {
  public:
   CrossingFinder(const std::vector<Vec3>& points, const std::vector<Facet>& facets)
@@ -196,30 +212,8 @@ class CrossingFinder {
     });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::erase_if(near, [&](std::uint32_t g) { return !cross(facets_[f], facets_[g]); });
+    std::erase_if(near, [&](std::uint32_t g) { return !facets_cross(points_, facets_[f], facets_[g]); });
     return near;
-  }
-
-  [[nodiscard]] bool cross(const Facet& f, const Facet& g) const {
-    const auto shared = std::count_if(f.begin(), f.end(), [&](VertexId v) { return has(g, v); });
-    return shared < 2 && (sides_meet(f, g) || sides_meet(g, f));
-  }
-
-  static bool has(const Facet& f, VertexId v) {
-    return f[0] == v || f[1] == v || f[2] == v;
-  }
-
-  /// A side of f meets facet g; sides that end in a vertex of g only touch it there.
-  [[nodiscard]] bool sides_meet(const Facet& f, const Facet& g) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const VertexId p = f[i];
-      const VertexId q = f[(i + 1) % 3];
-      if (!has(g, p) && !has(g, q) &&
-          meets(points_[p], points_[q], points_[g[0]], points_[g[1]], points_[g[2]])) {
-        return true;
-      }
-    }
-    return false;
   }
 
   const std::vector<Vec3>& points_;
@@ -266,6 +260,45 @@ class Retreat {
 std::vector<std::array<std::uint32_t, 2>> crossing_facets(
     const std::vector<Vec3>& points, const std::vector<std::array<VertexId, 3>>& facets) {
   return CrossingFinder(points, facets).find();
+}
+
+bool facets_cross(const std::vector<Vec3>& points, const Facet& f, const Facet& g) {
+  const auto shared = std::count_if(f.begin(), f.end(), [&](VertexId v) { return has(g, v); });
+  return shared < 2 && (sides_meet(points, f, g) || sides_meet(points, g, f));
+}
+
+namespace {
+
+/// True when x, seen along edge a, b, lies between c and d.
+bool lies_between(const std::vector<Vec3>& points, VertexId a, VertexId b, VertexId c, VertexId d,
+                  VertexId x) {
+  const auto same_side = [&](VertexId with, VertexId of) {
+    const double side = six_volumes(points[a], points[b], points[with], points[x]);
+    const double side_of = six_volumes(points[a], points[b], points[with], points[of]);
+    return side * side_of > 1e-9 * side_of * side_of;
+  };
+  return x != c && x != d && same_side(c, d) && same_side(d, c);
+}
+
+VertexId other_than(const Facet& f, VertexId a, VertexId b) {
+  return f[0] != a && f[0] != b ? f[0] : f[1] != a && f[1] != b ? f[1] : f[2];
+}
+
+}  // namespace
+
+bool facets_fold(const std::vector<Vec3>& points, const Facet& f, VertexId behind_f, const Facet& g,
+                 VertexId behind_g) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexId a = f[i];
+    const VertexId b = f[(i + 1) % 3];
+    if (has(g, a) && has(g, b)) {
+      const VertexId c = other_than(f, a, b);
+      const VertexId d = other_than(g, a, b);
+      return c != d &&
+             (lies_between(points, a, b, c, behind_f, d) || lies_between(points, a, b, d, behind_g, c));
+    }
+  }
+  return false;
 }
 
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,

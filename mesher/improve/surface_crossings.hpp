@@ -19,6 +19,16 @@ struct CrossingOptions {
 std::vector<std::array<std::uint32_t, 2>> crossing_facets(const std::vector<Vec3>& points,
                                                           const std::vector<std::array<VertexId, 3>>& facets);
 
+/// The same of two facets.
+bool facets_cross(const std::vector<Vec3>& points, const std::array<VertexId, 3>& f,
+                  const std::array<VertexId, 3>& g);
+
+/// True when two facets of the outer surface share an edge and one lies, along it, within the tet behind the
+/// other: the outside is folded over there, as where a gap of one tet is turned inside out. `behind_f` and
+/// `behind_g` are the tets' fourth vertices.
+bool facets_fold(const std::vector<Vec3>& points, const std::array<VertexId, 3>& f, VertexId behind_f,
+                 const std::array<VertexId, 3>& g, VertexId behind_g);
+
 /// Draws the vertices of crossing facets back into their own tets until nothing crosses; their points stay
 /// within reach. Returns the pairs left.
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,

@@ -12,6 +12,7 @@
 #include "mesher/improve/graded_sizes.hpp"
 #include "mesher/improve/mesh_patches.hpp"
 #include "mesher/improve/surface_crossings.hpp"
+#include "mesher/improve/surface_mending.hpp"
 #include "mesher/improve/tet_shape.hpp"
 #include "mesher/improve/vertex_moves.hpp"
 #include "mesher/improve/volume_balance.hpp"
@@ -198,7 +199,8 @@ class Improver {
   static constexpr int kLastRepairs = 4;
   static constexpr int kFarRepair = 4;  // the round of a repair from which on all its leeway is given
   static constexpr double kFarthestReach =
-      1.05;  // of a vertex, in the target's scale, where nothing else helps
+      1.05;                               // of a vertex, in the target's scale, where nothing else helps
+  static constexpr double kLimit = 1.09;  // of distances in the end, likewise
 
   /// Vertices to the boundary, tets into shape.
   void fit() {
@@ -275,7 +277,8 @@ class Improver {
   }
 
   /// Crossings, strays and volumes. Where tets have changed hands, bad ones may move that were stuck before;
-  /// what still crosses in the end may cost a little more distance.
+  /// what still crosses in the end may cost a little more distance, and what then is left is mended place by
+  /// place.
   void finish_surfaces() {
     with_points(hosted_.reach_mm, [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
     for (int i = 0;
@@ -289,6 +292,35 @@ class Improver {
     const double farthest_mm = std::max(hosted_.reach_mm, kFarthestReach * target_.scale_mm);
     with_points(target_.keep_distances ? hosted_.reach_mm : farthest_mm,
                 [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
+    const bool may_mend = target_.places.is_near && !target_.keep_distances;
+    if (may_mend && (may_have_faults_ || has_lonely_points())) {
+      timed("mending", [this] { mend(); });
+    }
+  }
+
+  /// True when a point may have no surface vertex of its own material within the limit.
+  [[nodiscard]] bool has_lonely_points() const {
+    const double limit_squared = kLimit * kLimit * target_.scale_mm * target_.scale_mm;
+    bool any = false;
+#pragma omp parallel for schedule(static) reduction(|| : any)
+    for (std::size_t p = 0; p < hosted_.points.size(); ++p) {
+      const VertexId host = hosted_.hosts[p];
+      any = any || host == kNoVertex ||
+            (mesh_.points[host] - hosted_.points[p].centre()).squared_norm() > limit_squared;
+    }
+    return any;
+  }
+
+  void mend() {
+    MendOptions options;
+    options.limit_mm = kLimit * target_.scale_mm;
+    options.step_mm = target_.scale_mm;
+    options.largest_mm3 = target_.largest_change_mm3;
+    options.goal_sine_squared = goal_;
+    const MendReport report = mend_surfaces(mesh_, target_.points, target_.places, options);
+    report_.tets_relabelled += report.tets_relabelled;
+    report_.crossings_left = report.cuts_left;
+    report_.faults_left = report.faults_left;
   }
 
   template <typename Step>
@@ -312,10 +344,12 @@ class Improver {
       }
       const RelabelReport report = relabel_misplaced_tets(mesh_, hosted, target_.places, relabel);
       report_.tets_relabelled += report.tets_relabelled;
+      may_have_faults_ = report.faults_left > 0;
       if (report.tets_relabelled + report.vertices_moved == 0) {
         return;
       }
     }
+    may_have_faults_ = true;
     report_.crossings_left = separate_crossings(mesh_, hosted, crossing);
   }
 
@@ -376,6 +410,7 @@ class Improver {
   Hosted hosted_{};
   std::vector<double> sizes_;  // of a round of decimation with a gradation
   int round_ = 0;
+  bool may_have_faults_ = false;  // in the surfaces, in the end
   ImproveReport report_;
 };
 
