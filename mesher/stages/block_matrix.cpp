@@ -13,14 +13,13 @@ std::size_t chunks_of(std::size_t count) {
   return (count + kChunk - 1) / kChunk;
 }
 
-/// Finds the vertices that share a cell with one, ascending, that one among them.
+/// Finds a vertex and those that share a cell with it.
 class RowFinder {
  public:
   RowFinder(const MaterialMesh& mesh, const VertexCells& around)
       : mesh_(mesh), around_(around), last_row_(mesh.points.size(), kNoVertex) {}
 
   void append_row(VertexId v, std::vector<VertexId>& columns) {
-    const auto begin = static_cast<std::ptrdiff_t>(columns.size());
     last_row_[v] = v;
     columns.push_back(v);
     for (const CellId c : around_.of(v)) {
@@ -31,7 +30,6 @@ class RowFinder {
         }
       }
     }
-    std::sort(columns.begin() + begin, columns.end());
   }
 
  private:
@@ -116,18 +114,21 @@ class ConjugateGradients {
   }
 
   void begin(const std::vector<Vec3>& load, const std::vector<Vec3>& start) {
+    const bool from_zero = std::all_of(start.begin(), start.end(), [](const Vec3& u) { return u == Vec3{}; });
 #pragma omp parallel
     {
-      for_chunks([&](std::size_t first, std::size_t last, std::size_t) {
-        for (std::size_t v = first; v < last; ++v) {
-          u_[v] = Float4(start[v]);
-        }
-      });
+      if (!from_zero) {
+        for_chunks([&](std::size_t first, std::size_t last, std::size_t) {
+          for (std::size_t v = first; v < last; ++v) {
+            u_[v] = Float4(start[v]);
+          }
+        });
+      }
       for_chunks([&](std::size_t first, std::size_t last, std::size_t chunk) {
         DotSum ll;
         for (std::size_t v = first; v < last; ++v) {
           const Float4 l(load[v]);
-          r_[v] = l - matrix_.row_times(static_cast<VertexId>(v), u_);
+          r_[v] = from_zero ? l : l - matrix_.row_times(static_cast<VertexId>(v), u_);
           ll.add(l, l);
         }
         ll_[chunk] = ll.total();

@@ -86,16 +86,14 @@ void ElasticSystem::assemble_row(const MaterialMesh& mesh, VertexId v, bool sour
     }
   }
   Columns3 diagonal{};
-  for (std::size_t b = 0; b < columns.size(); ++b) {
-    if (columns[b] != v) {
-      Columns3 block = stiffness_of(ratio_, scratch.q[b]);
-      if (!one_ratio_) {
-        add(scratch.rest[b], block);
-      }
-      matrix_.set_block(v, b, block);
-      for (int i = 0; i < 3; ++i) {
-        diagonal.c[i] -= block.c[i];
-      }
+  for (std::size_t b = 1; b < columns.size(); ++b) {
+    Columns3 block = stiffness_of(ratio_, scratch.q[b]);
+    if (!one_ratio_) {
+      add(scratch.rest[b], block);
+    }
+    matrix_.set_block(v, b, block);
+    for (int i = 0; i < 3; ++i) {
+      diagonal.c[i] -= block.c[i];
     }
   }
   if (source) {
@@ -103,7 +101,7 @@ void ElasticSystem::assemble_row(const MaterialMesh& mesh, VertexId v, bool sour
     diagonal.c[1] += Float4(0, 1, 0, 0);
     diagonal.c[2] += Float4(0, 0, 1, 0);
   }
-  matrix_.set_block(v, scratch.place[v], diagonal);
+  matrix_.set_block(v, 0, diagonal);
   matrix_.set_inverse_diagonal(v, inverse_of(diagonal));
 }
 

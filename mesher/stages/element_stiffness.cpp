@@ -112,16 +112,17 @@ LameConstants lame_constants(const ElasticMaterial& material) {
 }
 
 TetGradients tet_gradients(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3, double mu) {
-  const Vec3 a = p1 - p0;
-  const Vec3 b = p2 - p0;
-  const Vec3 c = p3 - p0;
-  const Vec3 bc = b.cross(c);
-  const double det = a.dot(bc);
+  const Float4 a(p1 - p0);
+  const Float4 b(p2 - p0);
+  const Float4 c(p3 - p0);
+  const Float4 bc = cross(b, c);
+  const Float4 products = a * bc;
+  const float det = products[0] + products[1] + products[2];
   if (!(det > 0)) {
-    return {};
+    return {Float4(0.0F), Float4(0.0F), Float4(0.0F)};
   }
-  const double scale = std::sqrt(mu / (6 * det));
-  return {Float4(scale * bc), Float4(scale * c.cross(a)), Float4(scale * a.cross(b))};
+  const float scale = std::sqrt(static_cast<float>(mu) / (6 * det));
+  return {scale * bc, scale * cross(c, a), scale * cross(a, b)};
 }
 
 void add_element_stiffness_row(std::span<const Vec3> points, std::size_t own, const LameConstants& lame,
