@@ -37,8 +37,7 @@ class ElasticSystem {
     return cbc3d::solve(matrix_, load, options_.solver, u);
   }
 
-  /// v and the vertices that share a cell with it.
-  [[nodiscard]] std::span<const VertexId> neighbours(VertexId v) const { return matrix_.columns(v); }
+  [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }
   /// y = (K + H^T H) x.
   void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
 
