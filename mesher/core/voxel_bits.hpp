@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -17,11 +16,6 @@ class VoxelBits {
 
   [[nodiscard]] bool test(std::size_t v) const { return (words_[v / kWordBits] >> v % kWordBits & 1U) != 0; }
   void set(std::size_t v) { words_[v / kWordBits] |= std::uint64_t{1} << v % kWordBits; }
-  /// Several threads may reset bits, and look at them by for_each, at once.
-  void reset(std::size_t v) {
-    std::atomic_ref(words_[v / kWordBits])
-        .fetch_and(~(std::uint64_t{1} << v % kWordBits), std::memory_order_relaxed);
-  }
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
 
   /// True when one of the bits [begin, end) is set.
@@ -35,10 +29,9 @@ class VoxelBits {
 
   /// Calls visit(v) for the set bits of [begin, end), ascending.
   template <typename Visit>
-  void for_each(std::size_t begin, std::size_t end, const Visit& visit) {
+  void for_each(std::size_t begin, std::size_t end, const Visit& visit) const {
     for (std::size_t at = begin; at < end; at = next_word(at)) {
-      std::uint64_t left =
-          std::atomic_ref(words_[at / kWordBits]).load(std::memory_order_relaxed) & mask(at, end);
+      std::uint64_t left = words_[at / kWordBits] & mask(at, end);
       for (; left != 0; left &= left - 1) {
         visit(at / kWordBits * kWordBits + static_cast<std::size_t>(std::countr_zero(left)));
       }

@@ -14,6 +14,7 @@
 
 #include "mesher/improve/labelled_complex.hpp"
 #include "mesher/improve/relabel_tets.hpp"
+#include "mesher/stages/cubes.hpp"
 
 namespace cbc3d {
 
@@ -39,18 +40,19 @@ struct SurfaceGuide {
 /// Numbers at places, in cubes; add all, then sort.
 class PlaceGrid {
  public:
-  explicit PlaceGrid(double cell_mm = 1) : cell_mm_(cell_mm) {}
-  void add(const Vec3& at, std::uint32_t id) { entries_.push_back({key(cell_of(at)), id}); }
+  explicit PlaceGrid(double cell_mm = 1) : cubes_{cell_mm} {}
+  void add(const Vec3& at, std::uint32_t id) { entries_.push_back({CubeKeys::key(cubes_.cube_of(at)), id}); }
   void sort() { std::sort(entries_.begin(), entries_.end()); }
   /// Calls f(id) for the entries of all cubes that meet a box.
   template <typename F>
   void for_each_near(const Vec3& low, const Vec3& high, const F& f) const {
-    const Index3 from = cell_of(low);
-    const Index3 to = cell_of(high);
+    const Index3 from = cubes_.cube_of(low);
+    const Index3 to = cubes_.cube_of(high);
     for (int k = from[2]; k <= to[2]; ++k) {
       for (int j = from[1]; j <= to[1]; ++j) {
-        const std::uint64_t last = key({to[0], j, k});
-        for (auto e = std::lower_bound(entries_.begin(), entries_.end(), Entry{key({from[0], j, k}), 0});
+        const std::uint64_t last = CubeKeys::key({to[0], j, k});
+        for (auto e =
+                 std::lower_bound(entries_.begin(), entries_.end(), Entry{CubeKeys::key({from[0], j, k}), 0});
              e != entries_.end() && e->key <= last; ++e) {
           f(e->id);
         }
@@ -64,17 +66,7 @@ class PlaceGrid {
     std::uint32_t id;
     auto operator<=>(const Entry&) const = default;
   };
-  [[nodiscard]] Index3 cell_of(const Vec3& x) const {
-    return {static_cast<int>(std::floor(x.x / cell_mm_)), static_cast<int>(std::floor(x.y / cell_mm_)),
-            static_cast<int>(std::floor(x.z / cell_mm_))};
-  }
-  static std::uint64_t key(const Index3& c) {
-    constexpr int kShift = 1 << 20;  // cubes may have negative indices
-    return (static_cast<std::uint64_t>(c[2] + kShift) << 42) |
-           (static_cast<std::uint64_t>(c[1] + kShift) << 21) | static_cast<std::uint64_t>(c[0] + kShift);
-  }
-
-  double cell_mm_;
+  CubeKeys cubes_;
   std::vector<Entry> entries_;
 };
 

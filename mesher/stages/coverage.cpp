@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesher/core/voxel_rows.hpp"
+#include "mesher/stages/cubes.hpp"
 
 namespace cbc3d {
 
@@ -78,40 +79,34 @@ class VertexCubes {
  public:
   VertexCubes(const ImageFrame& frame, const std::vector<SurfaceVertex>& surface,
               const std::vector<Vec3>& points, double distance_mm)
-      : distance_mm_(distance_mm) {
-    // Finer cubes than a few voxels would cost memory and tell little more.
-    edge_mm_ = std::max(distance_mm, 4 * frame.spacing_mm.max_coeff());
-    std::size_t cubes = 1;
-    for (std::size_t d = 0; d < 3; ++d) {
-      size_[d] = static_cast<int>(frame.size[d] * frame.spacing_mm[static_cast<int>(d)] / edge_mm_) + 1;
-      cubes *= static_cast<std::size_t>(size_[d]);
-    }
-    first_.assign(cubes + 1, 0);
+      // Finer cubes than a few voxels would cost memory and tell little more.
+      : distance_mm_(distance_mm), cubes_(frame, std::max(distance_mm, 4 * frame.spacing_mm.max_coeff())) {
+    first_.assign(cubes_.count() + 1, 0);
     for (const SurfaceVertex& s : surface) {
-      ++first_[number(cube_of(points[s.vertex])) + 1];
+      ++first_[cubes_.number(cubes_.cube_of(points[s.vertex])) + 1];
     }
-    for (std::size_t c = 0; c < cubes; ++c) {
+    for (std::size_t c = 0; c + 1 < first_.size(); ++c) {
       first_[c + 1] += first_[c];
     }
     places_.resize(surface.size());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (const SurfaceVertex& s : surface) {
-      places_[next[number(cube_of(points[s.vertex]))]++] = {points[s.vertex], s.material};
+      places_[next[cubes_.number(cubes_.cube_of(points[s.vertex]))]++] = {points[s.vertex], s.material};
     }
   }
 
   /// True when a vertex of the material lies within the distance of x.
   [[nodiscard]] bool is_near(const Vec3& x, MaterialId material) const {
-    const Index3 own = cube_of(x);
-    if (is_near_in(number(own), x, material)) {
+    const Index3 own = cubes_.cube_of(x);
+    if (is_near_in(cubes_.number(own), x, material)) {
       return true;
     }
-    const Index3 low = cube_of(x - Vec3{distance_mm_, distance_mm_, distance_mm_});
-    const Index3 high = cube_of(x + Vec3{distance_mm_, distance_mm_, distance_mm_});
+    const Index3 low = cubes_.cube_of(x - Vec3{distance_mm_, distance_mm_, distance_mm_});
+    const Index3 high = cubes_.cube_of(x + Vec3{distance_mm_, distance_mm_, distance_mm_});
     for (int k = low[2]; k <= high[2]; ++k) {
       for (int j = low[1]; j <= high[1]; ++j) {
         for (int i = low[0]; i <= high[0]; ++i) {
-          if (Index3{i, j, k} != own && is_near_in(number({i, j, k}), x, material)) {
+          if (Index3{i, j, k} != own && is_near_in(cubes_.number({i, j, k}), x, material)) {
             return true;
           }
         }
@@ -126,21 +121,6 @@ class VertexCubes {
     MaterialId material;
   };
 
-  /// The cube that holds x; the nearest one for what is outside the image.
-  [[nodiscard]] Index3 cube_of(const Vec3& x) const {
-    Index3 cube;
-    for (int d = 0; d < 3; ++d) {
-      const auto axis = static_cast<std::size_t>(d);
-      cube[axis] = std::clamp(static_cast<int>(x[d] / edge_mm_), 0, size_[axis] - 1);
-    }
-    return cube;
-  }
-  [[nodiscard]] std::size_t number(const Index3& c) const {
-    return (static_cast<std::size_t>(c[2]) * static_cast<std::size_t>(size_[1]) +
-            static_cast<std::size_t>(c[1])) *
-               static_cast<std::size_t>(size_[0]) +
-           static_cast<std::size_t>(c[0]);
-  }
   [[nodiscard]] bool is_near_in(std::size_t cube, const Vec3& x, MaterialId material) const {
     return std::any_of(
         places_.begin() + first_[cube], places_.begin() + first_[cube + 1], [&](const Place& place) {
@@ -149,8 +129,7 @@ class VertexCubes {
   }
 
   double distance_mm_;
-  double edge_mm_ = 0;
-  Index3 size_{};
+  ImageCubes cubes_;
   std::vector<std::uint32_t> first_;
   std::vector<Place> places_;
 };

@@ -39,7 +39,7 @@ class BoundaryCoverage {
   [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const;
   /// Calls f(centre in local mm) for each of those voxels.
   template <typename F>
-  void for_each_wanted(const F& f) {
+  void for_each_wanted(const F& f) const {
     const auto tell = [&](std::size_t v) {
       const Index3 at = image_.frame.index_of(v);
       f(image_.frame.local_centre(at[0], at[1], at[2]));
@@ -78,7 +78,7 @@ class InterfaceCoverage {
   }
   /// Calls f(centre in local mm) for each of those voxels.
   template <typename F>
-  void for_each_wanted(const F& f) {
+  void for_each_wanted(const F& f) const {
     wanted_.for_each(0, image_.frame.voxel_count(), [&](std::size_t v) {
       const Index3 at = image_.frame.index_of(v);
       f(image_.frame.local_centre(at[0], at[1], at[2]));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mesher/core/parallel.hpp"
+#include "mesher/stages/cubes.hpp"
 
 namespace cbc3d {
 namespace {
@@ -30,13 +31,13 @@ void for_each_other(const LabelImage& image, int i, int j, int k, MaterialId own
 class VertexGrid {
  public:
   VertexGrid(const std::vector<Vec3>& vertices, const std::vector<MaterialSet>& sets, double cell_mm)
-      : cell_mm_(cell_mm) {
+      : cubes_{cell_mm} {
     const std::vector<VertexId> chosen =
         indices_where(vertices.size(), [&](std::size_t v) { return sets[v].size > 1; });
     entries_.resize(chosen.size());
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      entries_[i] = {key(cell_of(vertices[chosen[i]])), chosen[i]};
+      entries_[i] = {CubeKeys::key(cubes_.cube_of(vertices[chosen[i]])), chosen[i]};
     }
     sort_distinct(entries_);
   }
@@ -44,11 +45,11 @@ class VertexGrid {
   /// Calls f(vertex) for the vertices of the 27 cubes round x until it returns true.
   template <typename F>
   void near(const Vec3& x, const F& f) const {
-    const Index3 c = cell_of(x);
+    const Index3 c = cubes_.cube_of(x);
     for (int k = c[2] - 1; k <= c[2] + 1; ++k) {
       for (int j = c[1] - 1; j <= c[1] + 1; ++j) {  // three cubes along x follow each other
-        const Entry low = {key({c[0] - 1, j, k}), 0};
-        const std::uint64_t high = key({c[0] + 1, j, k});
+        const Entry low = {CubeKeys::key({c[0] - 1, j, k}), 0};
+        const std::uint64_t high = CubeKeys::key({c[0] + 1, j, k});
         for (auto e = std::lower_bound(entries_.begin(), entries_.end(), low);
              e != entries_.end() && e->key <= high; ++e) {
           if (f(e->vertex)) {
@@ -65,17 +66,7 @@ class VertexGrid {
     VertexId vertex;
     auto operator<=>(const Entry&) const = default;
   };
-  [[nodiscard]] Index3 cell_of(const Vec3& x) const {
-    return {static_cast<int>(std::floor(x.x / cell_mm_)), static_cast<int>(std::floor(x.y / cell_mm_)),
-            static_cast<int>(std::floor(x.z / cell_mm_))};
-  }
-  static std::uint64_t key(const Index3& c) {
-    constexpr int kShift = 1 << 20;  // cubes may have negative indices
-    return (static_cast<std::uint64_t>(c[2] + kShift) << 42) |
-           (static_cast<std::uint64_t>(c[1] + kShift) << 21) | static_cast<std::uint64_t>(c[0] + kShift);
-  }
-
-  double cell_mm_;
+  CubeKeys cubes_;
   std::vector<Entry> entries_;
 };
 

@@ -10,15 +10,7 @@ LatticePlaces::LatticePlaces(const ImageFrame& image, const LatticeFrame& lattic
   const double least_mm = 4 * std::cbrt(image.spacing_mm.x * image.spacing_mm.y * image.spacing_mm.z);
   for (int level = 0; level <= lattice.max_level; ++level) {
     // A unit more than the tet's extent, so that rounding cannot take a place to the next cube but one.
-    const double edge_mm = std::max(least_mm, lattice.spacing_mm(level) + lattice.unit_mm);
-    Index3 size;
-    std::size_t cubes = 1;
-    for (int d = 0; d < 3; ++d) {
-      const auto axis = static_cast<std::size_t>(d);
-      size[axis] = static_cast<int>(image.size[axis] * image.spacing_mm[d] / edge_mm) + 1;
-      cubes *= static_cast<std::size_t>(size[axis]);
-    }
-    levels_.push_back({size, edge_mm, VoxelBits(cubes), VoxelBits(cubes)});
+    levels_.emplace_back(image, std::max(least_mm, lattice.spacing_mm(level) + lattice.unit_mm));
   }
 }
 

@@ -1,11 +1,11 @@
 // A coarse look-up from places to the red tets that may hold them.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/voxel_bits.hpp"
+#include "mesher/stages/cubes.hpp"
 #include "mesher/stages/lattice.hpp"
 
 namespace cbc3d {
@@ -26,27 +26,11 @@ class LatticePlaces {
   }
 
  private:
-  struct Cubes {
-    Index3 size;
-    double edge_mm;
+  struct Cubes : ImageCubes {
+    Cubes(const ImageFrame& image, double edge) : ImageCubes(image, edge), flags(count()), added(count()) {}
     VoxelBits flags;
     VoxelBits added;  // cubes that hold a place
 
-    /// The cube that holds x; the nearest one for what is outside, which is no farther from any place.
-    [[nodiscard]] Index3 cube_of(const Vec3& x) const {
-      Index3 cube;
-      for (int d = 0; d < 3; ++d) {
-        const auto axis = static_cast<std::size_t>(d);
-        cube[axis] = std::clamp(static_cast<int>(x[d] / edge_mm), 0, size[axis] - 1);
-      }
-      return cube;
-    }
-    [[nodiscard]] std::size_t number(const Index3& c) const {
-      return (static_cast<std::size_t>(c[2]) * static_cast<std::size_t>(size[1]) +
-              static_cast<std::size_t>(c[1])) *
-                 static_cast<std::size_t>(size[0]) +
-             static_cast<std::size_t>(c[0]);
-    }
     void add(const Vec3& x);
   };
 
