@@ -4,37 +4,12 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <bit>
-#include <fstream>
-#include <string>
 #include <utility>
+
+#include "mesher/core/nrrd_header.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
-namespace {
-
-/// Where the voxels begin if the header says that they follow it as they are; 0 otherwise.
-std::size_t raw_offset(const fs::path& path, std::size_t component_bytes) {
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  bool raw = false, ordered = component_bytes == 1;
-  if (!std::getline(in, line) || !line.starts_with("NRRD")) {
-    return 0;
-  }
-  while (std::getline(in, line) && !line.empty()) {
-    raw = raw || line == "encoding: raw";
-    ordered =
-        ordered || line == (std::endian::native == std::endian::little ? "endian: little" : "endian: big");
-    if (line.starts_with("data file:") || line.starts_with("datafile:") || line.starts_with("line skip:") ||
-        line.starts_with("byte skip:")) {
-      return 0;
-    }
-  }
-  return in && raw && ordered ? static_cast<std::size_t>(in.tellg()) : 0;
-}
-
-}  // namespace
-
 MappedVoxels::MappedVoxels(MappedVoxels&& other) noexcept
     : mapping_(std::exchange(other.mapping_, nullptr)), length_(other.length_), offset_(other.offset_) {}
 
@@ -61,7 +36,8 @@ std::optional<MappedVoxels> map_raw_nrrd(const fs::path& path, std::size_t bytes
                                          std::size_t component_bytes) {
   std::error_code error;
   const auto length = fs::file_size(path, error);
-  const std::size_t offset = path.extension() == ".nrrd" ? raw_offset(path, component_bytes) : 0;
+  const std::size_t offset =
+      path.extension() == ".nrrd" ? nrrd_voxel_offset(path, component_bytes, {"raw"}) : 0;
   if (error || offset == 0 || offset % component_bytes != 0 || length < offset + bytes) {
     return std::nullopt;
   }

@@ -1,7 +1,6 @@
 #include "mesher/core/packed_voxels.hpp"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "mesher/core/inflate.hpp"
+#include "mesher/core/nrrd_header.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -78,28 +78,8 @@ std::optional<VoxelBytes> unpack_nifti(const fs::path& path, std::size_t bytes, 
   return voxels;
 }
 
-/// Where the compressed voxels begin in the file; 0 when they are not what is asked for.
-std::size_t nrrd_offset(const fs::path& path, std::size_t component_bytes) {
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  bool gzip = false, ordered = component_bytes == 1;
-  if (!std::getline(in, line) || !line.starts_with("NRRD")) {
-    return 0;
-  }
-  while (std::getline(in, line) && !line.empty()) {
-    gzip = gzip || line == "encoding: gzip" || line == "encoding: gz";
-    ordered =
-        ordered || line == (std::endian::native == std::endian::little ? "endian: little" : "endian: big");
-    if (line.starts_with("data file:") || line.starts_with("datafile:") || line.starts_with("line skip:") ||
-        line.starts_with("byte skip:")) {
-      return 0;
-    }
-  }
-  return in && gzip && ordered ? static_cast<std::size_t>(in.tellg()) : 0;
-}
-
 std::optional<VoxelBytes> unpack_nrrd(const fs::path& path, std::size_t bytes, std::size_t component_bytes) {
-  const std::size_t begin = nrrd_offset(path, component_bytes);
+  const std::size_t begin = nrrd_voxel_offset(path, component_bytes, {"gzip", "gz"});
   VoxelBytes voxels(0, begin == 0 ? 0 : bytes);
   if (begin == 0 || !voxels.fill_from_gzip(bytes_of_file(path, begin))) {
     return std::nullopt;

@@ -1,6 +1,7 @@
 // A box of small tets in two layers, and what an image of it would say.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesher/improve/relabel_tets.hpp"
@@ -37,6 +38,23 @@ inline MaterialMesh two_layers(int n, double level) {
     }
   }
   return mesh;
+}
+
+/// Takes out the layer of cubes above z = 2 of n layers, and moves the vertex (3, 3, 2) below the gap to
+/// `tip`.
+inline void open_gap(MaterialMesh& mesh, int n, const Vec3& tip) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double lowest = n;
+    for (const VertexId v : mesh.tets[t]) lowest = std::min(lowest, mesh.points[v].z);
+    if (lowest != 2) {
+      mesh.tets[kept] = mesh.tets[t];
+      mesh.materials[kept++] = mesh.materials[t];
+    }
+  }
+  mesh.tets.resize(kept);
+  mesh.materials.resize(kept);
+  *std::find(mesh.points.begin(), mesh.points.end(), Vec3{3, 3, 2}) = tip;
 }
 
 inline std::size_t faults(const MaterialMesh& mesh) {

@@ -15,6 +15,7 @@ namespace cbc3d {
 namespace {
 
 using testing::faults;
+using testing::open_gap;
 using testing::plane_at;
 using testing::two_layers;
 
@@ -124,23 +125,8 @@ TEST(RelabelTets, APinchedEdgeIsMended) {
 
 TEST(RelabelTets, ATipAcrossAGapIsLeftOut) {
   MaterialMesh mesh = two_layers(6, 2);
-  // A gap between z = 2 and 3, over which one vertex reaches.
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    double lowest = 6;
-    for (const VertexId v : mesh.tets[t]) lowest = std::min(lowest, mesh.points[v].z);
-    if (lowest != 2) {
-      mesh.tets[kept] = mesh.tets[t];
-      mesh.materials[kept++] = mesh.materials[t];
-    }
-  }
-  mesh.tets.resize(kept);
-  mesh.materials.resize(kept);
-  const auto tip =
-      static_cast<VertexId>(std::find_if(mesh.points.begin(), mesh.points.end(),
-                                         [](const Vec3& p) { return p.x == 3 && p.y == 3 && p.z == 2; }) -
-                            mesh.points.begin());
-  mesh.points[tip] = {3.3, 3.2, 3.3};
+  open_gap(mesh, 6, {3.3, 3.2, 3.3});
+  const std::size_t kept = mesh.tets.size();
   std::vector<VertexId> hosts;
   HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
   const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(6, 2.5, 10), {});

@@ -14,6 +14,7 @@ namespace cbc3d {
 namespace {
 
 using testing::faults;
+using testing::open_gap;
 using testing::plane_at;
 using testing::two_layers;
 
@@ -339,23 +340,8 @@ TEST(MendSurfaces, TipsAcrossAGapNoLongerCut) {
   std::mt19937 random(11);
   for (int n = 0; n < 12; ++n) {
     MaterialMesh mesh = two_layers(kSize, 2);
-    // A gap between z = 2 and 3, over which one vertex reaches.
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      double lowest = kSize;
-      for (const VertexId v : mesh.tets[t]) lowest = std::min(lowest, mesh.points[v].z);
-      if (lowest != 2) {
-        mesh.tets[kept] = mesh.tets[t];
-        mesh.materials[kept++] = mesh.materials[t];
-      }
-    }
-    mesh.tets.resize(kept);
-    mesh.materials.resize(kept);
     const auto draw = [&] { return 0.6 * (random() / 4294967296.0 - 0.5); };
-    const auto tip = std::find_if(mesh.points.begin(), mesh.points.end(), [](const Vec3& p) {
-      return p == Vec3{3, 3, 2};
-    });
-    *tip = {3 + draw(), 3 + draw(), 3.2 + draw()};
+    open_gap(mesh, kSize, {3 + draw(), 3 + draw(), 3.2 + draw()});
     std::vector<VertexId> hosts;
     const std::vector<InterfacePoint> none;
     HostedPoints hosted(none, hosts, mesh.points.size(), 1);
