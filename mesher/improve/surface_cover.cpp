@@ -28,6 +28,38 @@ bool SurfaceCover::can_release(VertexId v, const Vec3* to, std::span<const Verte
   return true;
 }
 
+void SurfaceCover::find_stranded(VertexId u, VertexId v, std::span<const VertexId> others,
+                                 const TetComplex& mesh, const std::vector<MaterialSet>& sets) {
+  new_hosts_.clear();
+  stranded_.clear();
+  for (const VertexId from : {u, v}) {
+    for_each(from, [&](PointId point) {
+      const auto host = std::find_if(others.begin(), others.end(), [&](VertexId w) {
+        return reaches(mesh.point(w), point) && (*points_)[point].is_on(sets[w]);
+      });
+      if (host == others.end()) {
+        stranded_.push_back(point);
+      }
+      new_hosts_.push_back(host == others.end() ? v : *host);
+    });
+  }
+}
+
+void SurfaceCover::commit_merge(VertexId u, VertexId v) {
+  std::array<PointId, 2> chains = {first_[u], first_[v]};
+  first_[u] = kNoPoint;
+  first_[v] = kNoPoint;
+  auto host = new_hosts_.begin();
+  for (PointId link : chains) {
+    while (link != kNoPoint) {
+      const PointId next = links_[link].next;
+      links_[link].next = first_[*host];
+      first_[*host++] = link;
+      link = next;
+    }
+  }
+}
+
 void SurfaceCover::commit(VertexId v) {
   PointId link = first_[v];
   first_[v] = kNoPoint;

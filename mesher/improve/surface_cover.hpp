@@ -36,6 +36,22 @@ class SurfaceCover {
   /// Carries out what the last successful can_release found.
   void commit(VertexId v);
 
+  /// Of two vertices that are to become one: finds the points that none of `others` (as in can_release) is
+  /// host of, which the one vertex has to be near. Remembered for commit_merge.
+  void find_stranded(VertexId u, VertexId v, std::span<const VertexId> others, const TetComplex& mesh,
+                     const std::vector<MaterialSet>& sets);
+  [[nodiscard]] const std::vector<PointId>& stranded() const { return stranded_; }
+  /// What the last find_stranded found: v takes the stranded points, `others` the rest.
+  void commit_merge(VertexId u, VertexId v);
+  /// The largest distance at which a point may have its host.
+  [[nodiscard]] double reach_squared(PointId point) const {
+    if (far_reach_mm_.empty() || far_reach_mm_[point] == 0) {
+      return reach_squared_;
+    }
+    return static_cast<double>(far_reach_mm_[point]) * far_reach_mm_[point];
+  }
+  [[nodiscard]] Vec3 centre(PointId point) const { return (*points_)[point].centre(); }
+
   /// Calls f(point) for the points of a vertex.
   template <typename F>
   void for_each(VertexId v, const F& f) const {
@@ -50,11 +66,7 @@ class SurfaceCover {
     PointId next;
   };
   [[nodiscard]] bool reaches(const Vec3& at, PointId point) const {
-    const double squared = ((*points_)[point].centre() - at).squared_norm();
-    if (far_reach_mm_.empty() || far_reach_mm_[point] == 0) {
-      return squared <= reach_squared_;
-    }
-    return squared <= static_cast<double>(far_reach_mm_[point]) * far_reach_mm_[point];
+    return (centre(point) - at).squared_norm() <= reach_squared(point);
   }
 
   const std::vector<InterfacePoint>* points_;
@@ -62,6 +74,7 @@ class SurfaceCover {
   std::span<const float> far_reach_mm_;
   std::vector<PointId> first_;  // into links_, one a vertex
   std::vector<Link> links_;
+  std::vector<PointId> stranded_;
   std::vector<VertexId> new_hosts_;  // of the links of the released vertex, in order; kNoVertex: stays
 };
 

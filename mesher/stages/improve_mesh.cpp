@@ -172,11 +172,9 @@ class Improver {
     timed("hosts", [this] { hosted_ = find_hosts(mesh_, target_, report_); });
     for (int i = 0; i < options_.untangle_rounds && repair("untangling", 0, i) > 0; ++i) {
     }
-    for (int i = 0; i < (options_.only_bad ? 0 : kFittings); ++i) {
+    if (!options_.only_bad) {
       fit();
-    }
-    for (int i = 0; i < (options_.only_bad ? 0 : options_.decimation_rounds); ++i) {
-      decimate();
+      thin_out();
     }
     for (int i = 0; i < options_.repair_rounds && repair("repair", goal_, i) > 0; ++i) {
     }
@@ -194,8 +192,9 @@ class Improver {
  private:
   static constexpr double kMarginDeg = 1e-3;  // rounding when the mesh is written must not undo the goal
   static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
-  static constexpr double kLongestGrowth = 2.5;
-  static constexpr int kFittings = 2;
+  static constexpr double kLongestGrowth = 5;
+  static constexpr double kCollapseShare = 0.7;  // of the goal: collapses leave the rest to what follows them
+  static constexpr double kFewerShare = 0.97;    // a round of decimation that leaves more is the last
   static constexpr int kLastRepairs = 4;
   static constexpr int kFarRepair = 4;  // the round of a repair from which on all its leeway is given
   static constexpr double kFarthestReach =
@@ -214,10 +213,24 @@ class Improver {
     });
   }
 
+  /// Rounds of decimation as long as they are worth it.
+  void thin_out() {
+    double before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < options_.decimation_rounds; ++i) {
+      const auto tets = static_cast<double>(mesh_.tets.size());
+      if (tets > kFewerShare * before) {
+        return;
+      }
+      before = tets;
+      decimate();
+    }
+  }
+
   void decimate() {
     const bool graded = options_.gradation >= 0;
-    const CollapseOptions collapse{goal_, kLongestGrowth,
-                                   target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false, graded};
+    CollapseOptions collapse{sine_squared_of_deg(kCollapseShare * options_.min_dihedral_deg), kLongestGrowth,
+                             target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false, graded};
+    collapse.place_anew = true;
     if (graded) {
       sizes_ = graded_sizes(mesh_, options_.gradation);
     }
@@ -233,6 +246,7 @@ class Improver {
       pull_strays(patch, relax_);
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
+      climb_vertices(patch, goal_);
     });
     sizes_.clear();
   }
