@@ -96,7 +96,7 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
            });
          },
          "every boundary voxel has an interface vertex within so many mm: the lattice is refined for it, the "
-         "improvement keeps it; 0: the lattice is not, and the improvement keeps its default [quality: 0.9 "
+         "improvement keeps it; 0: the lattice is not, and the improvement keeps its default [quality: 1.06 "
          "voxel diagonals, paper: off]")
       ->check(CLI::NonNegativeNumber);
   app.add_flag_callback(
@@ -180,11 +180,12 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
       [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.improve.enabled = false; }); },
       "preset quality: stop before the improvement");
   add_override<int>(app, overrides, "--decimation-rounds",
-                    "improvement: rounds that thin the mesh out; 0: as many tets as before [3]",
+                    "improvement: rounds that thin the mesh out; 0: as many tets as before; they end when "
+                    "one takes less than 3 % away [6]",
                     [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; })
       ->check(CLI::Range(0, 20));
   add_override<double>(app, overrides, "--deviation",
-                       "improvement: facets stay so near to the boundary, voxel diagonals [0.2]",
+                       "improvement: facets stay so near to the boundary, voxel diagonals [0.35]",
                        [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; })
       ->check(CLI::Range(0.01, 2.0));
   add_override<double>(

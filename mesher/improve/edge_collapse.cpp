@@ -260,7 +260,58 @@ class EdgeCollapser {
 
   /// Distance and folds.
   bool facets_allow(VertexId u, VertexId v) {
-    return !folds(patch_.facets, mesh_.point(u), v, mesh_.point(v)) && !strays(u, v);
+    const Vec3& to = mesh_.point(v);
+    return !folds(patch_.facets, mesh_.point(u), v, to) && keeps_volumes(u, v, to, false) && !strays(u, v);
+  }
+
+  /// True when no material round u, and round v when both move, gains or loses much of what it has there:
+  /// thin parts are worn away otherwise, whose surfaces stay near the boundary all the same.
+  bool keeps_volumes(VertexId u, VertexId v, const Vec3& to, bool both_move) {
+    shares_.clear();
+    add_gains(patch_.facets, u, kNoVertex, to);
+    add_volumes(patch_.star, kNoVertex);
+    if (both_move) {
+      add_gains(patch_.facets_other, v, u, to);
+      add_volumes(patch_.star_other, u);
+    }
+    return std::all_of(shares_.begin(), shares_.end(), [&](const VolumeShare& share) {
+      return share.material == kBackground || share.gain >= -options_.volume_share * share.volume;
+    });
+  }
+
+  /// What a material has in a star, and what it gains, both times six.
+  struct VolumeShare {
+    MaterialId material;
+    double volume, gain;
+  };
+
+  VolumeShare& share_of(MaterialId material) {
+    const auto found = std::find_if(shares_.begin(), shares_.end(),
+                                    [&](const VolumeShare& share) { return share.material == material; });
+    return found != shares_.end() ? *found : shares_.emplace_back(VolumeShare{material, 0, 0});
+  }
+
+  /// Seen from where the facets at v will meet, the volumes under them vanish; those with `known` are left
+  /// out.
+  void add_gains(const std::vector<FacetAt>& facets, VertexId v, VertexId known, const Vec3& to) {
+    for (const FacetAt& f : facets) {
+      if (f.first != known && f.second != known) {
+        const Vec3 normal = (mesh_.point(f.first) - to).cross(mesh_.point(f.second) - to);
+        const double volume = normal.dot(mesh_.point(v) - to);
+        share_of(f.inner).gain -= volume;
+        share_of(f.outer).gain += volume;
+      }
+    }
+  }
+
+  void add_volumes(std::span<const TetId> star, VertexId known) {
+    for (const TetId t : star) {
+      if (!mesh_.has_node(t, known)) {
+        const auto& n = mesh_.nodes(t);
+        share_of(mesh_.material(t)).volume +=
+            six_volumes(mesh_.point(n[0]), mesh_.point(n[1]), mesh_.point(n[2]), mesh_.point(n[3]));
+      }
+    }
   }
 
   /// True when a facet that stays turns too far while its vertex goes from one place to another; those with
@@ -340,6 +391,7 @@ class EdgeCollapser {
       return false;
     }
     find_stranded_points(u, v);
+    merging_ = {u, v};
     for (const double share : {0.5, 1.0, 0.0}) {
       Placed to{v, mesh_.point(u) + share * (mesh_.point(v) - mesh_.point(u))};
       if (!find_place(to.at)) {
@@ -391,10 +443,41 @@ class EdgeCollapser {
         place -= s.distance_mm * s.normal;
       }
       if (deviation <= patch_.guards.deviation_mm && farthest_stranded(place).second <= 1) {
+        keep_volume(place);
         return true;
       }
     }
     return false;
+  }
+
+  /// Shifts a place to where neither side of the one interface loses volume, if it is near and in reach.
+  void keep_volume(Vec3& place) const {
+    if (pairs_.size() != 1) {
+      return;
+    }
+    Vec3 area;
+    double lost = 0;
+    const auto add = [&](const std::vector<FacetAt>& facets, VertexId v, VertexId known) {
+      for (const FacetAt& f : facets) {
+        if (f.first != known && f.second != known) {
+          const Vec3 a = mesh_.point(v) - place;
+          const Vec3 b = mesh_.point(f.first) - place;
+          const Vec3 c = mesh_.point(f.second) - place;
+          lost += a.dot(b.cross(c));
+          area += (b - a).cross(c - a);
+        }
+      }
+    };
+    add(patch_.facets, merging_[0], kNoVertex);
+    add(patch_.facets_other, merging_[1], merging_[0]);
+    const double squared = area.squared_norm();
+    if (!(squared > 0) || lost * lost > patch_.guards.deviation_mm * patch_.guards.deviation_mm * squared) {
+      return;
+    }
+    const Vec3 to = place + (lost / squared) * area;
+    if (farthest_stranded(to).second <= 1) {
+      place = to;
+    }
   }
 
   bool draw_into_reach(Vec3& place) const {
@@ -427,10 +510,10 @@ class EdgeCollapser {
     return quality > floor_ ? std::min(quality, quality_at(patch_.star_other, to.vertex, u, to)) : quality;
   }
 
-  [[nodiscard]] bool merged_facets_allow(VertexId u, const Placed& to) const {
+  [[nodiscard]] bool merged_facets_allow(VertexId u, const Placed& to) {
     const VertexId v = to.vertex;
     return !folds(patch_.facets, mesh_.point(u), v, to.at) &&
-           !folds(patch_.facets_other, mesh_.point(v), u, to.at) &&
+           !folds(patch_.facets_other, mesh_.point(v), u, to.at) && keeps_volumes(u, v, to.at, true) &&
            !facets_stray(patch_.facets, mesh_.point(u), v, to.at) &&
            !facets_stray(patch_.facets_other, mesh_.point(v), u, to.at);
   }
@@ -508,6 +591,8 @@ class EdgeCollapser {
   std::vector<std::pair<double, VertexId>> targets_;
   std::vector<VertexId> on_edge_, hosts_;
   std::vector<std::array<MaterialId, 2>> pairs_;
+  std::vector<VolumeShare> shares_;
+  std::array<VertexId, 2> merging_{};
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "mesher/improve/mesh_star.hpp"
@@ -11,6 +12,8 @@ namespace cbc3d {
 namespace {
 
 using Facet = std::array<VertexId, 3>;
+
+constexpr double kLeastGap = 1e-6;  // between facets at an edge, radians
 
 struct OuterSurface {
   std::vector<Facet> facets;  // counter-clockwise seen from outside
@@ -233,6 +236,8 @@ class Retreat {
         options_(options),
         around_(tets_of_vertices(mesh.tets, mesh.points.size())) {}
 
+  [[nodiscard]] const VertexTets& around() const { return around_; }
+
   bool move(VertexId v, const Vec3& inwards) {
     const Vec3 from = mesh_.points[v];
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
@@ -301,6 +306,66 @@ bool facets_fold(const std::vector<Vec3>& points, const Facet& f, VertexId behin
   return false;
 }
 
+namespace {
+
+/// The dihedral angles of the tets at an edge, together.
+double angle_round(const MaterialMesh& mesh, const VertexTets& around, VertexId a, VertexId b) {
+  const Vec3 along = (mesh.points[b] - mesh.points[a]).normalized();
+  double sum = 0;
+  for (const TetId t : star_of(around, a)) {
+    const auto& nodes = mesh.tets[t];
+    if (std::find(nodes.begin(), nodes.end(), b) == nodes.end()) {
+      continue;
+    }
+    std::array<Vec3, 2> out{};
+    std::size_t count = 0;
+    for (const VertexId v : nodes) {
+      if (v != a && v != b) {
+        const Vec3 to = mesh.points[v] - mesh.points[a];
+        out[count++] = to - along.dot(to) * along;
+      }
+    }
+    sum += std::atan2(out[0].cross(out[1]).norm(), out[0].dot(out[1]));
+  }
+  return sum;
+}
+
+/// Pairs of facets with an edge in common round which the tets fill more than a full turn: a gap turned
+/// inside out.
+std::vector<std::array<std::uint32_t, 2>> overfull_pairs(const MaterialMesh& mesh, const VertexTets& around,
+                                                         const OuterSurface& surface) {
+  struct Side {
+    std::array<VertexId, 2> ends;
+    std::uint32_t facet;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * surface.facets.size());
+  for (std::uint32_t f = 0; f < surface.facets.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(surface.facets[f][i], surface.facets[f][(i + 1) % 3]);
+      sides.push_back({{low, high}, f});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.ends != b.ends ? a.ends < b.ends : a.facet < b.facet;
+  });
+  const auto normal = [&](std::uint32_t facet) {
+    const Facet& f = surface.facets[facet];
+    return (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]).normalized();
+  };
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const auto& [ends, f] = sides[i];
+    const bool back_to_back = ends == sides[i + 1].ends && normal(f).dot(normal(sides[i + 1].facet)) < -0.1;
+    if (back_to_back && angle_round(mesh, around, ends[0], ends[1]) > 2 * std::numbers::pi - kLeastGap) {
+      pairs.push_back({f, sides[i + 1].facet});
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
                                const CrossingOptions& options) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
@@ -308,6 +373,8 @@ std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
   for (int round = 0;; ++round) {
     const OuterSurface surface = outer_surface(mesh);
     pairs = crossing_facets(mesh.points, surface.facets);
+    const auto overfull = overfull_pairs(mesh, retreat.around(), surface);
+    pairs.insert(pairs.end(), overfull.begin(), overfull.end());
     if (pairs.empty() || round == options.rounds) {
       return pairs.size();
     }
