@@ -1,6 +1,7 @@
 // Rows of voxels looked at eight bytes at a time: nearly all of an image is alike, and is passed over so.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -38,6 +39,22 @@ int end_of_run(const Voxel* row, int i, int end) {
     ++i;
   }
   return i;
+}
+
+/// True when the voxels begin ... end - 1 of a row are all `value`; begin < end.
+template <typename Voxel>
+bool is_all_of(const Voxel* row, int begin, int end, Voxel value) {
+  constexpr int kStep = kVoxelsInWord<Voxel>;
+  if (end - begin < kStep) {
+    return std::all_of(row + begin, row + end, [value](Voxel v) { return v == value; });
+  }
+  const std::uint64_t uniform = value * (~std::uint64_t{0} / static_cast<Voxel>(~Voxel{0}));
+  for (int i = begin; i < end - kStep; i += kStep) {
+    if (voxel_word(row + i) != uniform) {
+      return false;
+    }
+  }
+  return voxel_word(row + end - kStep) == uniform;  // some of its voxels for the second time
 }
 
 /// Finds the boundary voxels of the labelled materials, row by row. The outside of the image counts as

@@ -27,7 +27,7 @@ class ContactRemover {
   ContactRemover(LabelImage& image, std::uint64_t seed)
       : image_(image),
         seed_(seed),
-        priority_(rank_by_size(image, BackgroundRank::lowest)),
+        priority_(rank_by_size(count_materials(image), BackgroundRank::lowest)),
         step_{1, static_cast<std::size_t>(image.frame.size[0]),
               static_cast<std::size_t>(image.frame.size[0]) * static_cast<std::size_t>(image.frame.size[1])} {
   }
