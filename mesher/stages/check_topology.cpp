@@ -191,7 +191,7 @@ class Repair {
   }
 
   void repair_vertex(VertexId v) {
-    for (bool changed = true; changed;) {
+    for (bool changed = is_mixed(around_, v, class_of_tet_); changed;) {
       changed = false;
       star_.load(v, class_of_tet_, 0);
       for (const ClassId c : star_.distinct()) {

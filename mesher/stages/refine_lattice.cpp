@@ -33,6 +33,7 @@ class Refiner {
         raster_(image.frame, lattice.frame),
         account_(image, raster_, voxels.count),
         boundary_(image, {}),
+        red_green_(lattice),
         follower_(lattice),
         rank_(rank_by_size(voxels, BackgroundRank::highest)) {
     for (std::size_t m = 0; m < image.material_count(); ++m) {
@@ -61,7 +62,7 @@ class Refiner {
       if (mark() == 0 || result_.rounds == options_.max_rounds || exceeds_budget()) {
         break;
       }
-      refine_red_green(lattice_, marked_);
+      red_green_.refine(marked_);
     }
     finish();
     return std::move(result_);
@@ -510,6 +511,7 @@ class Refiner {
   std::optional<InterfaceCoverage> interfaces_;
   std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ or coverage_ wants
   std::vector<MaterialSet> sets_;        // of interfaces_' last update
+  RedGreenRefiner red_green_;
   LatticeFollower follower_;
   std::vector<std::uint32_t> rank_;
   static constexpr std::int32_t kNotJudged = -1;
