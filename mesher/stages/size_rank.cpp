@@ -8,29 +8,40 @@
 namespace cbc3d {
 namespace {
 
-/// Offset of the first voxel of every material; the voxel count where there is none.
-std::vector<std::size_t> first_voxels(const LabelImage& image) {
-  std::vector<std::size_t> first(image.material_count(), image.voxels.size());
+/// By material: how many voxels, and the offset of the first; the voxel count where there is none.
+struct MaterialVoxels {
+  explicit MaterialVoxels(const LabelImage& image)
+      : count(image.material_count(), 0), first(image.material_count(), image.voxels.size()) {}
+  std::vector<std::size_t> count, first;
+};
+
+MaterialVoxels voxels_of_materials(const LabelImage& image) {
+  MaterialVoxels all(image);
   const auto nx = static_cast<std::size_t>(image.frame.size[0]);
   const std::size_t rows = nx > 0 ? image.voxels.size() / nx : 0;
   image.voxels.visit([&](const auto* voxels) {
 #pragma omp parallel
     {
-      std::vector<std::size_t> mine(first.size(), image.voxels.size());
+      MaterialVoxels mine(image);
 #pragma omp for schedule(static) nowait
       for (std::size_t r = 0; r < rows; ++r) {
         const auto* row = voxels + r * nx;
-        for (int i = 0; i < image.frame.size[0]; i = end_of_run(row, i, image.frame.size[0])) {
-          mine[row[i]] = std::min(mine[row[i]], r * nx + static_cast<std::size_t>(i));
+        for (int i = 0; i < image.frame.size[0];) {
+          const MaterialId m = row[i];
+          const int end = end_of_run(row, i, image.frame.size[0]);
+          mine.first[m] = std::min(mine.first[m], r * nx + static_cast<std::size_t>(i));
+          mine.count[m] += static_cast<std::size_t>(end - i);
+          i = end;
         }
       }
-#pragma omp critical(cbc3d_first_voxels)
-      for (std::size_t m = 0; m < first.size(); ++m) {
-        first[m] = std::min(first[m], mine[m]);
+#pragma omp critical(cbc3d_voxels_of_materials)
+      for (std::size_t m = 0; m < all.first.size(); ++m) {
+        all.first[m] = std::min(all.first[m], mine.first[m]);
+        all.count[m] += mine.count[m];
       }
     }
   });
-  return first;
+  return all;
 }
 
 }  // namespace
@@ -38,14 +49,13 @@ std::vector<std::size_t> first_voxels(const LabelImage& image) {
 std::vector<std::uint32_t> rank_by_size(const LabelImage& image,
                                         const std::vector<MaterialId>& class_of_material,
                                         BackgroundRank background) {
-  const std::vector<std::size_t> voxels_of_material = image.voxels_per_material();
-  const std::vector<std::size_t> first_of_material = first_voxels(image);
+  const MaterialVoxels of_material = voxels_of_materials(image);
   const std::size_t classes = 1U + *std::max_element(class_of_material.begin(), class_of_material.end());
   std::vector<std::size_t> voxels(classes, 0);
   std::vector<std::size_t> first(classes, image.voxels.size());
   for (std::size_t m = 0; m < class_of_material.size(); ++m) {
-    voxels[class_of_material[m]] += voxels_of_material[m];
-    first[class_of_material[m]] = std::min(first[class_of_material[m]], first_of_material[m]);
+    voxels[class_of_material[m]] += of_material.count[m];
+    first[class_of_material[m]] = std::min(first[class_of_material[m]], of_material.first[m]);
   }
   std::vector<std::uint32_t> order(classes);
   std::iota(order.begin(), order.end(), 0U);
