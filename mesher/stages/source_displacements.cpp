@@ -43,10 +43,12 @@ class Judge {
   Judge() = default;
   /// `normal`: from the lower material to the higher.
   explicit Judge(const Vec3& normal) {
-    for (const Way& way : kWays) {
-      const double along = normal.dot(way.sum);
-      heard_[1] &= along < 0 ? ~way.faces : kAll;
-      heard_[0] &= along > 0 ? ~way.faces : kAll;
+    // Two ways that look opposite at a time: 13 in the middle is none, and always heard.
+    for (std::size_t w = 0; w < kWays.size() / 2; ++w) {
+      const double along = normal.dot(kWays[w].sum);
+      const std::uint64_t opposite = kWays[kWays.size() - 1 - w].faces;
+      heard_[1] &= ~(along < 0 ? kWays[w].faces : along > 0 ? opposite : 0);
+      heard_[0] &= ~(along > 0 ? kWays[w].faces : along < 0 ? opposite : 0);
     }
   }
   [[nodiscard]] bool hears(const TargetPoint& target) const {

@@ -88,6 +88,7 @@ void TargetRows::find(const Vec3& place, double radius, const Keep& keep, NearTa
   }
   const auto i_span = static_cast<unsigned>(i.last - i.first);
   const TargetPoint* const targets = targets_.targets.data();
+  const double* const centres = x_.data();
   std::size_t count = 0;
   for (int k = k_range.first; k <= k_range.last; ++k) {
     const double z = k * frame_.spacing_mm.z - place.z;
@@ -97,19 +98,21 @@ void TargetRows::find(const Vec3& place, double radius, const Keep& keep, NearTa
     for (int j = j_range.first; j <= j_range.last; ++j) {
       const double y = j * frame_.spacing_mm.y - place.y;
       const double left = left_z - y * y;
-      if (left < 0 || begin[j] == end[j]) {
+      const std::uint32_t row_begin = begin[j];
+      const std::uint32_t row_end = end[j];
+      if (left < 0 || row_begin == row_end) {
         continue;
       }
-      if (near.hits.size() < count + (end[j] - begin[j])) {
-        near.hits.resize(2 * (count + (end[j] - begin[j])));
+      if (near.hits.size() < count + (row_end - row_begin)) {
+        near.hits.resize(2 * (count + (row_end - row_begin)));
       }
       const auto row = static_cast<std::uint32_t>(near.rows.size());
       near.rows.push_back({y, z});
       // Without branches, for none of them could be foretold: a hit is written, and counts or is written
       // over.
       NearTargets::Hit* const hits = near.hits.data();
-      for (std::uint32_t t = begin[j]; t < end[j]; ++t) {
-        const double x = x_[static_cast<std::size_t>(targets[t].i)] - place.x;
+      for (std::uint32_t t = row_begin; t < row_end; ++t) {
+        const double x = centres[targets[t].i] - place.x;
         hits[count] = {t, row};
         count += static_cast<std::size_t>(x * x <= left) &
                  static_cast<std::size_t>(static_cast<unsigned>(targets[t].i - i.first) <= i_span) &
