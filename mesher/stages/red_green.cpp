@@ -251,7 +251,7 @@ bool RedGreenRefiner::sweep() {
 /// What the last sweep can have touched, ascending. Many sweeps touch little: then it is looked up.
 std::vector<std::uint32_t> RedGreenRefiner::concerned_reds() {
   constexpr std::size_t kRedsOfAVertex = 32;
-  constexpr int kWorthBuilding = 2;  // sweeps over all tets that cost as much as building
+  constexpr int kWorthBuilding = 6;  // sweeps over all tets that cost as much as building
   const bool few = kRedsOfAVertex * just_touched_.size() < lattice_.reds.size();
   if (near_.is_built() && near_.is_stale()) {
     near_.drop();
