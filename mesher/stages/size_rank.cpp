@@ -62,10 +62,10 @@ std::vector<std::uint32_t> rank_by_size(const MaterialVoxels& of_material,
   return rank;
 }
 
-std::vector<std::uint32_t> rank_by_size(const MaterialVoxels& voxels, BackgroundRank background) {
-  std::vector<MaterialId> own(voxels.count.size());
+std::vector<std::uint32_t> rank_by_size(const MaterialVoxels& of_material, BackgroundRank background) {
+  std::vector<MaterialId> own(of_material.count.size());
   std::iota(own.begin(), own.end(), MaterialId{0});
-  return rank_by_size(voxels, own, background);
+  return rank_by_size(of_material, own, background);
 }
 
 }  // namespace cbc3d

@@ -22,11 +22,11 @@ MaterialVoxels count_materials(const LabelImage& image);
 /// survive; among equals the one whose first voxel comes earlier in raster order is the higher, so that ranks
 /// do not depend on label values. Background (class 0) is put first or last. `class_of_material[m]`: the
 /// class of material m, 0 for background only.
-std::vector<std::uint32_t> rank_by_size(const MaterialVoxels& voxels,
+std::vector<std::uint32_t> rank_by_size(const MaterialVoxels& of_material,
                                         const std::vector<MaterialId>& class_of_material,
                                         BackgroundRank background);
 
 /// The same with every material a class of its own.
-std::vector<std::uint32_t> rank_by_size(const MaterialVoxels& voxels, BackgroundRank background);
+std::vector<std::uint32_t> rank_by_size(const MaterialVoxels& of_material, BackgroundRank background);
 
 }  // namespace cbc3d
