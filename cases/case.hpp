@@ -21,11 +21,13 @@ struct Phantom {
   std::string sha256;  ///< of the labels, one byte a voxel, i fastest; empty: not checked
 };
 
-/// What is done to the image before any mesher sees it.
+/// What is done to the image before any mesher sees it, in this order; see derive.hpp.
 struct Derivation {
-  bool fill_holes = false;  ///< see derive.hpp
+  bool fill_holes = false;
+  Index3 repeat{1, 1, 1};  ///< copies side by side along each axis
 
-  [[nodiscard]] bool any() const { return fill_holes; }
+  [[nodiscard]] bool repeats() const { return repeat != Index3{1, 1, 1}; }
+  [[nodiscard]] bool any() const { return fill_holes || repeats(); }
 };
 
 /// Mesher name -> option -> value.

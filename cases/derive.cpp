@@ -84,4 +84,26 @@ std::size_t fill_holes(LabelImage& image) {
   return filled;
 }
 
+LabelImage repeated(const LabelImage& image, const Index3& copies) {
+  const Index3& size = image.frame.size;
+  LabelImage result;
+  result.frame = image.frame;
+  result.labels = image.labels;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.frame.size[axis] = size[axis] * copies[axis];
+  }
+  result.voxels.resize(result.frame.voxel_count());
+  for (int k = 0; k < result.frame.size[2]; ++k) {
+    for (int j = 0; j < result.frame.size[1]; ++j) {
+      const std::size_t from = image.frame.offset(0, j % size[1], k % size[2]);
+      const std::size_t to = result.frame.offset(0, j, k);
+      for (int i = 0; i < result.frame.size[0]; ++i) {
+        result.voxels[to + static_cast<std::size_t>(i)] =
+            image.voxels[from + static_cast<std::size_t>(i % size[0])];
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace cbc3d::cases

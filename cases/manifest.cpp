@@ -118,12 +118,19 @@ void read_image(const Section& image, Case& result) {
 }
 
 Derivation read_derivation(const Section& derive) {
-  derive.require_known_keys({"fill_holes"});
-  const json& fill_holes = derive.at("fill_holes");
-  if (!fill_holes.is_boolean()) {
-    derive.fail("fill_holes", "is " + fill_holes.dump() + ", neither true nor false");
+  derive.require_known_keys({"fill_holes", "repeat"});
+  Derivation result;
+  if (derive.object.contains("fill_holes")) {
+    const json& fill_holes = derive.at("fill_holes");
+    if (!fill_holes.is_boolean()) {
+      derive.fail("fill_holes", "is " + fill_holes.dump() + ", neither true nor false");
+    }
+    result.fill_holes = fill_holes.get<bool>();
   }
-  return {fill_holes.get<bool>()};
+  if (derive.object.contains("repeat")) {
+    result.repeat = three_numbers<int>(derive, "repeat");
+  }
+  return result;
 }
 
 MesherParameters read_parameters(const Section& parameters) {

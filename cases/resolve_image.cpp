@@ -81,18 +81,30 @@ ResolvedImage generate(const Phantom& phantom, const fs::path& cache_dir) {
   return {path, ""};
 }
 
+/// What was done, as part of a file's name.
+std::string name_of(const Derivation& derivation) {
+  std::string name = derivation.fill_holes ? "-holes-filled" : "";
+  if (derivation.repeats()) {
+    const auto& [x, y, z] = derivation.repeat;
+    name += "-repeated-" + std::to_string(x) + "x" + std::to_string(y) + "x" + std::to_string(z);
+  }
+  return name;
+}
+
 /// The digest of a file's content, or the name of a phantom, tells what a derived image was made from.
 ResolvedImage derive(const Case& which, const ResolvedImage& source, const fs::path& cache_dir) {
   const std::string origin = which.phantom ? source.path.stem().string() : which.image_sha256;
-  const fs::path path = cache_dir / (origin + "-holes-filled.nrrd");
+  const fs::path path = cache_dir / (origin + name_of(which.derive) + ".nrrd");
   std::error_code error;
   if (fs::is_regular_file(path, error)) {
     return {path, ""};
   }
   create_cache(cache_dir);
   LabelImage image = read_label_image(source.path);
-  fill_holes(image);
-  write_label_image(image, path);
+  if (which.derive.fill_holes) {
+    fill_holes(image);
+  }
+  write_label_image(which.derive.repeats() ? repeated(image, which.derive.repeat) : image, path);
   return {path, ""};
 }
 

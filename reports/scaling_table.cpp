@@ -21,29 +21,68 @@ struct Size {
 };
 
 struct Series {
-  std::string name;         ///< generator of the phantom
+  std::string name;         ///< of the images
   std::string column;       ///< mesher, with threads where it ran with several
   std::vector<Size> sizes;  ///< by voxels
 };
 
-double voxel_count(const cases::Phantom& phantom) {
-  return static_cast<double>(phantom.size[0]) * phantom.size[1] * phantom.size[2];
+double voxel_count(const cases::Case& subject) {
+  double voxels = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    voxels *= static_cast<double>(subject.phantom->size[axis]) * subject.derive.repeat[axis];
+  }
+  return voxels;
+}
+
+/// Images that differ in their size alone: the resolutions of a phantom, or copies of one side by side.
+struct ImageFamily {
+  std::string name;
+  std::uint64_t seed;
+  std::optional<Index3> size;  ///< of what is repeated; none: resolutions
+
+  [[nodiscard]] bool holds(const cases::Case& subject) const {
+    const auto& phantom = subject.phantom;
+    return phantom && phantom->name == name && phantom->seed == seed &&
+           (size ? phantom->size == *size : !subject.derive.repeats());
+  }
+  [[nodiscard]] std::string title() const { return size ? name + " side by side" : name; }
+  auto operator<=>(const ImageFamily&) const = default;
+};
+
+/// Of the cases that ran, in their order.
+std::vector<ImageFamily> families_of(const std::vector<cases::Case>& cases,
+                                     const std::vector<std::string>& ran) {
+  std::vector<ImageFamily> families;
+  for (const cases::Case& subject : cases) {
+    if (!subject.phantom || std::find(ran.begin(), ran.end(), subject.name) == ran.end()) {
+      continue;
+    }
+    const cases::Phantom& phantom = *subject.phantom;
+    ImageFamily family{phantom.name, phantom.seed, {}};
+    if (subject.derive.repeats()) {
+      family.size = phantom.size;
+    }
+    if (std::find(families.begin(), families.end(), family) == families.end()) {
+      families.push_back(std::move(family));
+    }
+  }
+  return families;
 }
 
 std::optional<double> median_of(const std::vector<const Json*>& runs, const FigureOf& figure_of) {
   return cell_of(runs, {"", 0, "", figure_of}).value;
 }
 
-/// The lines of a column on every case of a phantom, good ones with elements alone.
+/// The lines of a column on every case of a family, good ones with elements alone.
 Series series_of(const Columns& columns, const std::string& column, const std::vector<cases::Case>& cases,
-                 const cases::Phantom& phantom) {
-  Series series{phantom.name, column, {}};
+                 const ImageFamily& family) {
+  Series series{family.title(), column, {}};
   for (const cases::Case& subject : cases) {
-    if (subject.phantom && subject.phantom->name == phantom.name && subject.phantom->seed == phantom.seed) {
+    if (family.holds(subject)) {
       const auto runs = columns.runs(subject.name, column);
       const auto elements = median_of(runs, element_count);
       if (elements.value_or(0) > 0 && median_of(runs, at({"time_s", "mesh"}))) {
-        series.sizes.push_back({voxel_count(*subject.phantom), *elements, runs});
+        series.sizes.push_back({voxel_count(subject), *elements, runs});
       }
     }
   }
@@ -54,14 +93,10 @@ Series series_of(const Columns& columns, const std::string& column, const std::v
 
 std::vector<Series> all_series(const std::vector<Json>& results, const std::vector<cases::Case>& cases) {
   const Columns columns(results);
-  const std::vector<std::string> ran = case_names(results);
   std::vector<Series> list;
-  std::set<std::pair<std::string, std::uint64_t>> done;
-  for (const cases::Case& subject : cases) {
-    const bool wanted = subject.phantom && std::find(ran.begin(), ran.end(), subject.name) != ran.end() &&
-                        done.insert({subject.phantom->name, subject.phantom->seed}).second;
-    for (const std::string& column : wanted ? columns.names() : std::vector<std::string>{}) {
-      Series series = series_of(columns, column, cases, *subject.phantom);
+  for (const ImageFamily& family : families_of(cases, case_names(results))) {
+    for (const std::string& column : columns.names()) {
+      Series series = series_of(columns, column, cases, family);
       if (series.sizes.size() > 1 && series.sizes.front().voxels < series.sizes.back().voxels) {
         list.push_back(std::move(series));
       }

@@ -69,6 +69,37 @@ TEST(FillHoles, RegionsAtTheImageBorderStay) {
   EXPECT_EQ(fill_holes(image), 1U);
 }
 
+TEST(Repeated, CopiesLieSideBySide) {
+  LabelImage image = two_blocks();
+  clear(image, {4, 4, 4});
+  image.frame.origin_mm = {5, -3, 2};
+  const LabelImage many = repeated(image, {3, 1, 2});
+  EXPECT_EQ(many.frame.size, (Index3{48, 14, 24}));
+  EXPECT_EQ(many.frame.origin_mm, image.frame.origin_mm);
+  EXPECT_EQ(many.labels, image.labels);
+  for (std::size_t v = 0; v < many.voxels.size(); ++v) {
+    const Index3 at = many.frame.index_of(v);
+    ASSERT_EQ(many.voxels[v], image.at(at[0] % 16, at[1], at[2] % 12));
+  }
+  EXPECT_EQ(repeated(image, {1, 1, 1}).voxels, image.voxels);
+}
+
+TEST(ResolveImage, DerivedImagesOfOneSourceAreTold) {
+  const test::Folder data("data"), folder("cache");
+  LabelImage image = two_blocks();
+  clear(image, {4, 4, 4});
+  write_label_image(image, data.path() / "one.nrrd");
+  Case one;
+  one.image_file = "one.nrrd";
+  one.image_sha256 = sha256_of_file(data.path() / "one.nrrd");
+  one.derive.repeat = {2, 1, 1};
+  const auto twice = resolve_image(one, {data.path()}, folder.path());
+  EXPECT_EQ(read_label_image(twice.path).voxels, repeated(image, {2, 1, 1}).voxels);
+  one.derive.fill_holes = true;
+  const auto filled = resolve_image(one, {data.path()}, folder.path());
+  EXPECT_EQ(read_label_image(filled.path).voxels, repeated(two_blocks(), {2, 1, 1}).voxels);
+}
+
 TEST(ResolveImage, DerivedImageIsWrittenOnceAndItsSourceChecked) {
   const test::Folder data("data"), folder("cache");
   const auto cache = folder.path() / "images";

@@ -16,7 +16,7 @@ json good_manifest() {
           {"title", "One"},
           {"suites", {"demo"}},
           {"image", {{"file", "one.nrrd"}, {"sha256", std::string(64, 'a')}, {"source", "somewhere (MIT)"}}},
-          {"derive", {{"fill_holes", true}}},
+          {"derive", {{"fill_holes", true}, {"repeat", {2, 1, 3}}}},
           {"parameters", {{"cgal", {{"cell-size", 2.5}, {"mode", "x"}}}}},
           {"parameter_sets", {{"fine", {{"cgal", {{"cell-size", 1}}}}}}},
           {"deformation_pattern", {{"pattern", "face"}, {"image", "as it is"}, {"before", "one"}}},
@@ -63,6 +63,7 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[1].image_sha256, std::string(64, 'a'));
   EXPECT_EQ(cases[1].image_source, "somewhere (MIT)");
   EXPECT_TRUE(cases[1].derive.fill_holes);
+  EXPECT_EQ(cases[1].derive.repeat, (Index3{2, 1, 3}));
   EXPECT_FALSE(cases[1].phantom);
   EXPECT_EQ(cases[1].parameters.at("cgal").at("cell-size"), "2.5");
   EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
@@ -110,6 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadKey{"/paper", {1, 2}, "\"paper\""}, BadKey{"/derive", true, "\"derive\""},
                     BadKey{"/derive/fill_holes", 1, "\"derive.fill_holes\""},
                     BadKey{"/derive", {{"dilate", true}}, "\"derive.dilate\""},
+                    BadKey{"/derive/repeat", {2, 0, 1}, "\"derive.repeat\""},
                     BadKey{"/deformation_pattern", "face", "\"deformation_pattern\""},
                     BadKey{"/deformation_pattern/pattern", "corner", "vertex, edge, face, no"},
                     BadKey{"/deformation_pattern/before", "ghost", "which no manifest has"},

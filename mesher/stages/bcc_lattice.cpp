@@ -27,6 +27,26 @@ struct Box {
   }
 };
 
+/// Adds a row's labelled voxels to a box. Of a row within the box only what sticks out along x is looked at.
+template <typename Voxel>
+void add_row(const Voxel* row, int size, int j, int k, Box& box) {
+  const auto first_labelled = [&](int begin, int end) {
+    return begin >= end || row[begin] != kBackground ? begin : end_of_run(row, begin, end);
+  };
+  const bool known = box.low[1] <= j && j <= box.high[1] && box.low[2] <= k && k <= box.high[2];
+  const int before = known ? box.low[0] : size;
+  const int first = first_labelled(0, before);
+  if (first == before && !known) {
+    return;
+  }
+  box.add(0, first, first);
+  box.add(1, j, j);
+  box.add(2, k, k);
+  for (int i = box.high[0] + 1; (i = first_labelled(i, size)) < size; ++i) {
+    box.add(0, i, i);
+  }
+}
+
 Box labelled_box(const LabelImage& image) {
   Box box;
   const auto& size = image.frame.size;
@@ -37,17 +57,7 @@ Box labelled_box(const LabelImage& image) {
 #pragma omp for collapse(2) nowait
       for (int k = 0; k < size[2]; ++k) {
         for (int j = 0; j < size[1]; ++j) {
-          const auto* row = voxels + image.frame.offset(0, j, k);
-          const int first = row[0] != kBackground ? 0 : end_of_run(row, 0, size[0]);
-          if (first < size[0]) {
-            int last = size[0] - 1;
-            while (row[last] == kBackground) {
-              --last;
-            }
-            mine.add(0, first, last);
-            mine.add(1, j, j);
-            mine.add(2, k, k);
-          }
+          add_row(voxels + image.frame.offset(0, j, k), size[0], j, k, mine);
         }
       }
 #pragma omp critical(cbc3d_labelled_box)
@@ -247,7 +257,10 @@ class NodeGrid {
   int shift_;
 };
 
-/// Sets a flag; several threads may set the same one.
+/// Reads and sets a flag; several threads may set the same one.
+bool is_set(std::uint8_t& flag) {
+  return std::atomic_ref<std::uint8_t>(flag).load(std::memory_order_relaxed) != 0;
+}
 void set_flag(std::uint8_t& flag) {
   std::atomic_ref<std::uint8_t>(flag).store(1, std::memory_order_relaxed);
 }
@@ -267,18 +280,29 @@ std::uint16_t select_tets(const Grid& grid, const Index3& cell, const Wanted& wa
   return static_cast<std::uint16_t>(bits);
 }
 
+/// Calls visit(number, cell) for the cells of a layer, ascending.
+template <typename Visit>
+void for_each_cell(const Grid& grid, int layer, const Visit& visit) {
+  const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
+  std::size_t c = cells.offset(0, 0, layer);
+  for (int j = 0; j < grid.cells[1]; ++j) {
+    for (int i = 0; i < grid.cells[0]; ++i) {
+      visit(c++, Index3{i, j, layer});
+    }
+  }
+}
+
 /// select_tets for every cell that may have a wanted tet, in parallel.
 template <typename MayHave, typename Wanted>
 std::vector<std::uint16_t> select_everywhere(const Grid& grid, const MayHave& may_have,
                                              const Wanted& wanted) {
   const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
   std::vector<std::uint16_t> bits(cells.voxel_count(), 0);
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::size_t c = 0; c < bits.size(); ++c) {
-    const Index3 cell = cells.index_of(c);
-    if (may_have(cell)) {
-      bits[c] = select_tets(grid, cell, wanted);
-    }
+#pragma omp parallel for schedule(dynamic)
+  for (int layer = 0; layer < grid.cells[2]; ++layer) {
+    for_each_cell(grid, layer, [&](std::size_t c, const Index3& cell) {
+      bits[c] = may_have(cell) ? select_tets(grid, cell, wanted) : std::uint16_t{0};
+    });
   }
   return bits;
 }
@@ -296,11 +320,16 @@ std::vector<std::uint8_t> labelled_nodes(const LabelImage& image, const Grid& gr
                              {cell[0] * s + 2 * s, cell[1] * s + 2 * s, cell[2] * s + 2 * s}));
   };
   select_everywhere(grid, may_have, [&](const PointTet& tet) {
-    const bool holds = holds_labelled_voxel(image, raster, tet);
-    for (std::size_t n = 0; n < 4 && holds; ++n) {
-      set_flag(labelled[nodes.number_of(tet[n])]);
+    std::array<std::size_t, 4> numbers{};
+    std::transform(tet.begin(), tet.end(), numbers.begin(),
+                   [&](const LatticePoint& node) { return nodes.number_of(node); });
+    // Where all are flagged already, by a few of the two dozen tets round each, the voxels need not be asked.
+    const bool known =
+        std::all_of(numbers.begin(), numbers.end(), [&](std::size_t n) { return is_set(labelled[n]); });
+    if (!known && holds_labelled_voxel(image, raster, tet)) {
+      std::for_each(numbers.begin(), numbers.end(), [&](std::size_t n) { set_flag(labelled[n]); });
     }
-    return holds;
+    return false;
   });
   return labelled;
 }
@@ -308,16 +337,17 @@ std::vector<std::uint8_t> labelled_nodes(const LabelImage& image, const Grid& gr
 /// Calls action(tet) for the chosen tets, in the order of the cells.
 template <typename Action>
 void for_each_chosen(const Grid& grid, const std::vector<std::uint16_t>& chosen, const Action& action) {
-  const ImageFrame cells{grid.cells, {}, {}, Mat3::identity()};
-  for (std::size_t c = 0; c < chosen.size(); ++c) {
-    for (unsigned axis = 0; axis < 3 && chosen[c] != 0; ++axis) {
-      const auto tets = tets_across_face(grid, cells.index_of(c), axis);
-      for (unsigned e = 0; e < 4; ++e) {
-        if ((chosen[c] >> (4 * axis + e) & 1U) != 0) {
-          action(tets[e]);
+  for (int layer = 0; layer < grid.cells[2]; ++layer) {
+    for_each_cell(grid, layer, [&](std::size_t c, const Index3& cell) {
+      for (unsigned axis = 0; axis < 3 && chosen[c] != 0; ++axis) {
+        const auto tets = tets_across_face(grid, cell, axis);
+        for (unsigned e = 0; e < 4; ++e) {
+          if ((chosen[c] >> (4 * axis + e) & 1U) != 0) {
+            action(tets[e]);
+          }
         }
       }
-    }
+    });
   }
 }
 

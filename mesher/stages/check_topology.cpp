@@ -95,16 +95,16 @@ class Repair {
         image_(image),
         options_(options),
         classes_(image.labels),
-        rank_(rank_by_size(image, classes_.of_material, BackgroundRank::highest)),
+        voxels_(count_materials(image)),
+        rank_(rank_by_size(voxels_, classes_.of_material, BackgroundRank::highest)),
         around_(tets_of_vertices(mesh.tets.nodes, points.size())),
         unsure_(mesh.unsure),
         class_of_tet_(classes_of_tets(classes_, mesh.materials)),
         star_(around_, mesh.tets.nodes, mesh.neighbours) {
     unsure_.resize(points.size(), 1);
     report_.labels.resize(classes_.label.size());
-    const std::vector<std::size_t> voxels = image.voxels_per_material();
-    for (std::size_t m = 1; m < voxels.size(); ++m) {
-      report_.labels[classes_.of_material[m]].image_regions += voxels[m] > 0 ? 1 : 0;
+    for (std::size_t m = 1; m < voxels_.count.size(); ++m) {
+      report_.labels[classes_.of_material[m]].image_regions += voxels_.count[m] > 0 ? 1 : 0;
     }
   }
 
@@ -191,7 +191,7 @@ class Repair {
   }
 
   void repair_vertex(VertexId v) {
-    for (bool changed = true; changed;) {
+    for (bool changed = is_mixed(around_, v, class_of_tet_); changed;) {
       changed = false;
       star_.load(v, class_of_tet_, 0);
       for (const ClassId c : star_.distinct()) {
@@ -451,6 +451,7 @@ class Repair {
   const LabelImage& image_;
   const TopologyOptions& options_;
   Classes classes_;
+  MaterialVoxels voxels_;
   std::vector<std::uint32_t> rank_;
   VertexTets around_;
   std::vector<std::uint8_t>& unsure_;  // of the mesh

@@ -11,10 +11,15 @@ CleanReport clean_image(LabelImage& image, const CleanOptions& options, bool spl
   if (options.region_tolerance > 0) {
     report.removed = remove_small_regions(image, options.region_tolerance);
   }
+  const bool as_before =
+      report.noise.holes_filled + report.noise.specks_relabelled == 0 && report.removed.regions_removed == 0;
+  std::vector<std::size_t> after = as_before ? before : image.voxels_per_material();
   if (options.manifold_voxels) {
     report.contacts = remove_voxel_contacts(image, options.seed);
+    for (std::size_t m = 0; m < labels; ++m) {
+      after[m] += static_cast<std::size_t>(report.contacts.gained[m]);  // modulo 2^64, so losses come off
+    }
   }
-  const std::vector<std::size_t> after = image.voxels_per_material();
   for (std::size_t m = 1; m < labels; ++m) {
     report.labels.push_back({image.labels[m], before[m], after[m]});
   }

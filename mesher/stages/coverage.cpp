@@ -10,24 +10,30 @@ namespace cbc3d {
 
 namespace {
 
-/// Those of the tets [begin, end), each once.
+/// Those of the tets [begin, end). A vertex is met with again soon, from the tets beside: what was found last
+/// with the same hash tells most of those.
 std::vector<SurfaceVertex> surface_vertices_of(const TetNodes& tets,
                                                const std::vector<std::array<TetId, 4>>& neighbours,
                                                const std::vector<MaterialId>& materials, std::size_t begin,
                                                std::size_t end) {
-  std::vector<SurfaceVertex> found;
+  constexpr std::size_t kRecent = 4096;
+  std::vector<SurfaceVertex> found, recent(kRecent, {kNoVertex, kBackground});
   for (std::size_t t = begin; t < end; ++t) {
     for (std::size_t n = 0; n < 4 && materials[t] != kBackground; ++n) {
       const TetId across = neighbours[t][n];
-      if (across == kNoTet || materials[across] != materials[t]) {
-        for (const std::uint8_t corner : kTetFace[n]) {
-          found.push_back({tets[t][corner], materials[t]});
+      if (across != kNoTet && materials[across] == materials[t]) {
+        continue;
+      }
+      for (const std::uint8_t corner : kTetFace[n]) {
+        const SurfaceVertex vertex = {tets[t][corner], materials[t]};
+        SurfaceVertex& last = recent[(vertex.vertex + 97U * vertex.material) % kRecent];
+        if (last != vertex) {
+          last = vertex;
+          found.push_back(vertex);
         }
       }
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
@@ -54,21 +60,16 @@ BoundaryCoverage::BoundaryCoverage(const LabelImage& image)
     : image_(image), uncovered_(image.voxels.size()), across_(image.voxels.size()) {
   const auto& size = image.frame.size;
   const BoundaryRows rows(image);
-  std::vector<std::vector<std::size_t>> slices(static_cast<std::size_t>(size[2]));
-#pragma omp parallel for schedule(static)
+  slices_.resize(static_cast<std::size_t>(size[2]));
+#pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < size[2]; ++k) {
-    std::vector<int> found;
+    Slice& slice = slices_[static_cast<std::size_t>(k)];
     for (int j = 0; j < size[1]; ++j) {
-      found.clear();
-      rows.find(j, k, found);
-      for (const int i : found) {
-        slices[static_cast<std::size_t>(k)].push_back(image.frame.offset(i, j, k));
-      }
+      slice.first.push_back(slice.i.size());
+      rows.find(j, k, slice.i);
     }
-  }
-  for (auto& slice : slices) {
-    boundary_.insert(boundary_.end(), slice.begin(), slice.end());
-    slice = {};
+    slice.first.push_back(slice.i.size());
+    slice.i.shrink_to_fit();
   }
 }
 
@@ -95,10 +96,19 @@ class VertexCubes {
     }
   }
 
-  /// True when a vertex of the material lies within the distance of x.
-  [[nodiscard]] bool is_near(const Vec3& x, MaterialId material) const {
+  struct Place {
+    Vec3 at;
+    MaterialId material;
+  };
+
+  /// True when a vertex of the material lies within the distance of x. `last` is one that did for another
+  /// place: what follows along a row mostly has the same.
+  [[nodiscard]] bool is_near(const Vec3& x, MaterialId material, const Place*& last) const {
+    if (last != nullptr && reaches(*last, x, material)) {
+      return true;
+    }
     const Index3 own = cubes_.cube_of(x);
-    if (is_near_in(cubes_.number(own), x, material)) {
+    if (is_near_in(cubes_.number(own), x, material, last)) {
       return true;
     }
     const Index3 low = cubes_.cube_of(x - Vec3{distance_mm_, distance_mm_, distance_mm_});
@@ -106,7 +116,7 @@ class VertexCubes {
     for (int k = low[2]; k <= high[2]; ++k) {
       for (int j = low[1]; j <= high[1]; ++j) {
         for (int i = low[0]; i <= high[0]; ++i) {
-          if (Index3{i, j, k} != own && is_near_in(cubes_.number({i, j, k}), x, material)) {
+          if (Index3{i, j, k} != own && is_near_in(cubes_.number({i, j, k}), x, material, last)) {
             return true;
           }
         }
@@ -116,16 +126,19 @@ class VertexCubes {
   }
 
  private:
-  struct Place {
-    Vec3 at;
-    MaterialId material;
-  };
+  [[nodiscard]] bool reaches(const Place& place, const Vec3& x, MaterialId material) const {
+    return place.material == material && (x - place.at).squared_norm() <= distance_mm_ * distance_mm_;
+  }
 
-  [[nodiscard]] bool is_near_in(std::size_t cube, const Vec3& x, MaterialId material) const {
-    return std::any_of(
-        places_.begin() + first_[cube], places_.begin() + first_[cube + 1], [&](const Place& place) {
-          return place.material == material && (x - place.at).squared_norm() <= distance_mm_ * distance_mm_;
-        });
+  [[nodiscard]] bool is_near_in(std::size_t cube, const Vec3& x, MaterialId material,
+                                const Place*& last) const {
+    for (std::uint32_t p = first_[cube]; p < first_[cube + 1]; ++p) {
+      if (reaches(places_[p], x, material)) {
+        last = &places_[p];
+        return true;
+      }
+    }
+    return false;
   }
 
   double distance_mm_;
@@ -139,19 +152,28 @@ class VertexCubes {
 void BoundaryCoverage::update(const std::vector<SurfaceVertex>& surface, const std::vector<Vec3>& points,
                               double distance_mm) {
   const VertexCubes cubes(image_.frame, surface, points, distance_mm);
-  std::vector<std::uint8_t> covered(boundary_.size());
-#pragma omp parallel for schedule(dynamic, 1024)
-  for (std::size_t b = 0; b < boundary_.size(); ++b) {
-    const Index3 at = image_.frame.index_of(boundary_[b]);
-    covered[b] =
-        cubes.is_near(image_.frame.local_centre(at[0], at[1], at[2]), image_.voxels[boundary_[b]]) ? 1 : 0;
+  std::vector<std::vector<std::size_t>> uncovered(slices_.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t k = 0; k < slices_.size(); ++k) {
+    const Slice& slice = slices_[k];
+    const VertexCubes::Place* last = nullptr;
+    for (std::size_t j = 0; j + 1 < slice.first.size(); ++j) {
+      const std::size_t row = image_.frame.offset(0, static_cast<int>(j), static_cast<int>(k));
+      for (std::size_t b = slice.first[j]; b < slice.first[j + 1]; ++b) {
+        const std::size_t voxel = row + static_cast<std::size_t>(slice.i[b]);
+        const Vec3 centre = image_.frame.local_centre(slice.i[b], static_cast<int>(j), static_cast<int>(k));
+        if (!cubes.is_near(centre, image_.voxels[voxel], last)) {
+          uncovered[k].push_back(voxel);
+        }
+      }
+    }
   }
   uncovered_.clear();
   uncovered_count_ = 0;
-  for (std::size_t b = 0; b < boundary_.size(); ++b) {
-    if (covered[b] == 0) {
-      uncovered_.set(boundary_[b]);
-      ++uncovered_count_;
+  for (const auto& of_slice : uncovered) {
+    uncovered_count_ += of_slice.size();
+    for (const std::size_t voxel : of_slice) {
+      uncovered_.set(voxel);
     }
   }
   mark_across();

@@ -19,7 +19,7 @@ struct SurfaceVertex {
 };
 
 /// Every (vertex, material) with the vertex on a face between that labelled material and anything else; one
-/// that is seen from tets far apart in memory may be there more than once.
+/// that is seen from several tets may be there more than once.
 std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
                                             const std::vector<std::array<TetId, 4>>& neighbours,
                                             const std::vector<MaterialId>& materials);
@@ -51,12 +51,18 @@ class BoundaryCoverage {
   [[nodiscard]] std::size_t uncovered_count() const { return uncovered_count_; }
 
  private:
+  /// Boundary voxels of a slice: those of row j are i[first[j]] ... i[first[j + 1] - 1], ascending.
+  struct Slice {
+    std::vector<std::size_t> first;
+    std::vector<int> i;
+  };
+
   void mark_across();
 
   const LabelImage& image_;
-  VoxelBits uncovered_;                // boundary voxels only
-  VoxelBits across_;                   // face neighbours of uncovered voxels, of another material
-  std::vector<std::size_t> boundary_;  // offsets of the boundary voxels, ascending
+  VoxelBits uncovered_;        // boundary voxels only
+  VoxelBits across_;           // face neighbours of uncovered voxels, of another material
+  std::vector<Slice> slices_;  // the boundary voxels
   std::size_t uncovered_count_ = 0;
 };
 

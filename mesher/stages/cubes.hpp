@@ -29,9 +29,10 @@ struct CubeKeys {
 /// The cubes that an image lies in, numbered.
 struct ImageCubes {
   double edge_mm;
+  double cubes_per_mm;
   Index3 size{};
 
-  ImageCubes(const ImageFrame& image, double edge) : edge_mm(edge) {
+  ImageCubes(const ImageFrame& image, double edge) : edge_mm(edge), cubes_per_mm(1 / edge) {
     for (int d = 0; d < 3; ++d) {
       const auto axis = static_cast<std::size_t>(d);
       size[axis] = static_cast<int>(image.size[axis] * image.spacing_mm[d] / edge_mm) + 1;
@@ -44,7 +45,7 @@ struct ImageCubes {
     Index3 cube;
     for (int d = 0; d < 3; ++d) {
       const auto axis = static_cast<std::size_t>(d);
-      cube[axis] = std::clamp(static_cast<int>(x[d] / edge_mm), 0, size[axis] - 1);
+      cube[axis] = std::clamp(static_cast<int>(x[d] * cubes_per_mm), 0, size[axis] - 1);
     }
     return cube;
   }

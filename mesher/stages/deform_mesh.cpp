@@ -44,10 +44,13 @@ class Deformer {
       return ElasticSystem(mesh_, around_, elastic_materials(image_, options_.elasticity),
                            options_.elasticity);
     });
+    SourceDisplacements asked = timed("displacements", [&] {
+      return SourceDisplacements({sources_, targets_, sets_, image_.frame}, options_.displacement);
+    });
     for (int i = 0; i < options_.iterations && !report_.stopped_early; ++i) {
       on_iteration(i);
       report_.iterations.emplace_back();
-      timed("displacements", [&] { displacements_of_sources(); });
+      timed("displacements", [&] { take_displacements(asked.at(mesh_.points)); });
       timed("assembly", [&] { system.assemble(mesh_, is_source_); });
       move_under_quality_control(system);
     }
@@ -67,9 +70,7 @@ class Deformer {
   }
 
   /// H and H^T D.
-  void displacements_of_sources() {
-    const auto found =
-        source_displacements({sources_, targets_, sets_, image_.frame}, mesh_.points, options_.displacement);
+  void take_displacements(const std::vector<SourceDisplacement>& found) {
     is_source_.assign(mesh_.points.size(), 0);
     load_.assign(mesh_.points.size(), {});
     for (std::size_t s = 0; s < found.size(); ++s) {

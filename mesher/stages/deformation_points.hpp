@@ -66,12 +66,15 @@ struct SourcePoints {
 
 SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& around, LabelSets& sets);
 
+/// Eight bytes: the search for displacements reads hundreds for every source.
 struct TargetPoint {
-  std::int32_t i;  ///< voxel index along x; (j, k) is told by the row
-  std::uint32_t set;
-  std::uint8_t
-      faces;  ///< bit 2 * axis (+ 1): the face towards smaller (larger) indices has another material behind
-  bool lower_side;  ///< the voxel's material is the lower of a set of two
+  static constexpr std::uint32_t kMostSets = 1U << 25U;
+
+  std::int32_t i;          ///< voxel index along x; (j, k) is told by the row
+  std::uint32_t set : 25;  ///< below kMostSets
+  /// Bit 2 * axis (+ 1): the face towards smaller (larger) indices has another material behind.
+  std::uint32_t faces : 6;
+  std::uint32_t lower_side : 1;  ///< the voxel's material is the lower of a set of two
 };
 
 /// Target points in rows of voxels: targets[first[r]] ... of row r = k * size_y + j, ascending in i.

@@ -25,6 +25,15 @@ namespace cbc3d {
 /// Integer coordinates of a lattice vertex, in units, each in [0, 2^21).
 using LatticePoint = std::array<std::int32_t, 3>;
 
+inline LatticePoint midpoint(const LatticePoint& a, const LatticePoint& b) {
+  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+}
+
+/// Edges of a tet by their end nodes; edge e and edge 5 - e are opposite. Edges 0 and 5 are the long ones of
+/// a red tet.
+inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kRedEdge = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 /// Maps lattice units to an image's local mm.
 struct LatticeFrame {
   Vec3 origin_mm;      ///< local position of the lattice point (0,0,0)
@@ -65,8 +74,7 @@ class VertexTable {
 struct RedTet {
   std::array<VertexId, 4> nodes;
   std::int8_t level = 0;
-  std::uint8_t split =
-      0;  ///< bit e: edge e is split (the order of edges is red_green's); kept by refine_red_green
+  std::uint8_t split = 0;  ///< bit e: edge e (of kRedEdge) is split; kept by RedGreenRefiner
 };
 
 struct Lattice {

@@ -10,18 +10,10 @@
 namespace cbc3d {
 namespace {
 
-// Edges of a tet by their end nodes; edge e and edge 5 - e are opposite. Edges 0 and 5 are the long ones of a
-// red tet.
-constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdge = {
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 // The edges of the face opposite to each node, as a bit set.
 constexpr std::array<unsigned, 4> kFaceEdges = {
     (1U << 3) | (1U << 4) | (1U << 5), (1U << 1) | (1U << 2) | (1U << 5), (1U << 0) | (1U << 2) | (1U << 4),
     (1U << 0) | (1U << 1) | (1U << 3)};
-
-LatticePoint midpoint(const LatticePoint& a, const LatticePoint& b) {
-  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-}
 
 /// The middle of the edge a-b of the level if it is split, else kNoVertex. A segment of one unit has no
 /// midpoint in the lattice.
@@ -51,8 +43,8 @@ Pattern pattern_of(const Lattice& lattice, const RedTet& red) {
   const auto is_split = [&](VertexId a, VertexId b) { return middle_of(lattice, a, b, finer) != kNoVertex; };
   std::array<VertexId, 6> mid;
   for (unsigned e = 0; e < 6; ++e) {
-    const VertexId a = red.nodes[kEdge[e][0]];
-    const VertexId b = red.nodes[kEdge[e][1]];
+    const VertexId a = red.nodes[kRedEdge[e][0]];
+    const VertexId b = red.nodes[kRedEdge[e][1]];
     mid[e] = middle_of(lattice, a, b, red.level);
     if (mid[e] != kNoVertex) {
       pattern.split |= 1U << e;
@@ -74,167 +66,6 @@ Pattern pattern_of(const Lattice& lattice, const RedTet& red) {
   }
   return pattern;
 }
-
-/// What the closure asks of a red tet: the edges to be split in addition, or a red split. demand_of notes its
-/// split edges.
-struct Demand {
-  std::uint8_t extra = 0;
-  bool red = false;
-};
-
-Demand demand_of(const Lattice& lattice, RedTet& red) {
-  const Pattern pattern = pattern_of(lattice, red);
-  const unsigned split = pattern.split;
-  red.split = static_cast<std::uint8_t>(split);
-  if (split == 0) {
-    return {};
-  }
-  if (pattern.too_deep) {
-    return {0, true};
-  }
-  unsigned closed = split;  // with the third edge of every face that has two
-  for (const unsigned face : kFaceEdges) {
-    const unsigned of_face = split & face;
-    if (of_face != 0 && (of_face & (of_face - 1)) != 0) {
-      closed |= face;
-    }
-  }
-  const bool one = (closed & (closed - 1)) == 0;
-  const bool face = std::find(kFaceEdges.begin(), kFaceEdges.end(), closed) != kFaceEdges.end();
-  const bool opposite = closed == ((1U << 0) | (1U << 5)) || closed == ((1U << 1) | (1U << 4)) ||
-                        closed == ((1U << 2) | (1U << 3));
-  if (one || face || opposite) {
-    return {static_cast<std::uint8_t>(closed & ~split), false};
-  }
-  return {0, true};
-}
-
-/// Runs the closure. A sweep looks (in parallel, at a state that nobody changes) at the red tets that the
-/// last sweep can have touched, then acts in order. A new midpoint on the edge a-b concerns the tets with
-/// that edge, those of whose edges it is one half (a or b is a node of theirs), and those of whose faces it
-/// is an inner segment (all three edges of that face are split): so nodes carry the number of the sweep that
-/// last split an edge at them.
-class Closure {
- public:
-  explicit Closure(Lattice& lattice) : lattice_(lattice), last_touched_(lattice.points.size(), 0) {}
-
-  std::size_t run(const std::vector<std::uint8_t>& marked) {
-    const std::size_t count = lattice_.reds.size();
-    for (std::size_t t = 0; t < count; ++t) {
-      if (marked[t] != 0 && lattice_.reds[t].level < lattice_.frame.max_level) {
-        split_red(t);
-      }
-    }
-    for (bool changed = split_count_ > 0; changed;) {
-      ++sweep_;
-      changed = sweep();
-    }
-    return split_count_;
-  }
-
- private:
-  [[nodiscard]] bool is_concerned(const RedTet& red) const {
-    for (const VertexId v : red.nodes) {
-      if (last_touched_[v] + 1 == sweep_) {
-        return true;
-      }
-    }
-    return std::any_of(kFaceEdges.begin(), kFaceEdges.end(), [&](unsigned face) {
-      return (red.split & face) == face && is_touched_inside(red, face);
-    });
-  }
-
-  /// True when an inner segment of the face may have been split by the last sweep: each has its ends at two
-  /// of the three midpoints, so two of them are enough to look at.
-  [[nodiscard]] bool is_touched_inside(const RedTet& red, unsigned face) const {
-    for (unsigned edges = face & (face - 1); edges != 0; edges &= edges - 1) {
-      const auto e = static_cast<unsigned>(std::countr_zero(edges));
-      const LatticePoint& a = lattice_.points[red.nodes[kEdge[e][0]]];
-      const LatticePoint& b = lattice_.points[red.nodes[kEdge[e][1]]];
-      if (last_touched_[lattice_.table.find(midpoint(a, b))] + 1 == sweep_) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  bool sweep() {
-    const std::size_t count = lattice_.reds.size();
-    std::vector<Demand> demands(count);
-#pragma omp parallel for schedule(static, 4096)
-    for (std::size_t t = 0; t < count; ++t) {
-      if (is_concerned(lattice_.reds[t])) {
-        demands[t] = demand_of(lattice_, lattice_.reds[t]);
-      }
-    }
-    const std::vector<std::uint32_t> demanding =
-        indices_where(count, [&](std::size_t t) { return demands[t].red || demands[t].extra != 0; });
-    for (const std::uint32_t t : demanding) {
-      if (demands[t].red) {
-        split_red(t);
-      } else {
-        split_edges(lattice_.reds[t], demands[t].extra);
-      }
-    }
-    return !demanding.empty();
-  }
-
-  VertexId split_edge(VertexId a, VertexId b, int level) {
-    const std::size_t before = lattice_.points.size();
-    const VertexId middle = lattice_.vertex_at(midpoint(lattice_.points[a], lattice_.points[b]));
-    if (middle == before) {
-      last_touched_.push_back(sweep_);
-      last_touched_[a] = last_touched_[b] = sweep_;
-      for (const VertexId end : {a, b}) {
-        std::int8_t& below = lattice_.split_below[end];
-        below = std::max(below, static_cast<std::int8_t>(level + 1));
-      }
-    }
-    return middle;
-  }
-
-  void split_edges(const RedTet& red, unsigned edges) {
-    for (unsigned e = 0; e < 6; ++e) {
-      if ((edges >> e & 1U) != 0) {
-        split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]], red.level);
-      }
-    }
-  }
-
-  /// Splits the tet at `index` in eight; the first child takes its place, the others go to the end. All
-  /// children have a midpoint among their nodes, which is touched, so the next sweep looks at them.
-  void split_red(std::size_t index) {
-    const RedTet red = lattice_.reds[index];
-    std::array<VertexId, 6> m;
-    for (unsigned e = 0; e < 6; ++e) {
-      m[e] = split_edge(red.nodes[kEdge[e][0]], red.nodes[kEdge[e][1]], red.level);
-      last_touched_[m[e]] = sweep_;
-    }
-    const auto& [a, b, c, d] = red.nodes;
-    const VertexId ab = m[0], ac = m[1], ad = m[2], bc = m[3], bd = m[4], cd = m[5];
-    // The shortest inner diagonal joins the midpoints of the two long edges, ab and cd. Every child is
-    // written so that its long edges are again 0-1 and 2-3 and its orientation is the parent's.
-    const std::array<std::array<VertexId, 4>, 8> children = {{{a, ab, ac, ad},
-                                                              {ab, b, bc, bd},
-                                                              {ac, bc, c, cd},
-                                                              {ad, bd, cd, d},
-                                                              {ab, cd, ac, ad},
-                                                              {ab, cd, bc, ac},
-                                                              {ab, cd, bd, bc},
-                                                              {ab, cd, ad, bd}}};
-    const auto level = static_cast<std::int8_t>(red.level + 1);
-    lattice_.reds[index] = {children[0], level, 0};
-    for (std::size_t n = 1; n < children.size(); ++n) {
-      lattice_.reds.push_back({children[n], level, 0});
-    }
-    ++split_count_;
-  }
-
-  Lattice& lattice_;
-  std::vector<std::uint32_t> last_touched_;  // per vertex
-  std::uint32_t sweep_ = 1;
-  std::size_t split_count_ = 0;
-};
 
 /// Writes the tets of one red tet.
 class PieceWriter {
@@ -263,8 +94,8 @@ class PieceWriter {
 
   /// 1:2 by one edge.
   void emit_halves(std::size_t t, unsigned e) {
-    const VertexId m = mid(t, kEdge[e][0], kEdge[e][1]);
-    for (const std::uint8_t end : kEdge[e]) {
+    const VertexId m = mid(t, kRedEdge[e][0], kRedEdge[e][1]);
+    for (const std::uint8_t end : kRedEdge[e]) {
       std::array<VertexId, 4> half = lattice_.reds[t].nodes;
       half[end] = m;
       add(t, half, 1);
@@ -274,10 +105,10 @@ class PieceWriter {
   /// 1:4 by two opposite edges: each end of the one with each end of the other.
   void emit_opposite(std::size_t t, unsigned e) {
     const unsigned o = 5 - e;
-    const VertexId m = mid(t, kEdge[e][0], kEdge[e][1]);
-    const VertexId n = mid(t, kEdge[o][0], kEdge[o][1]);
-    for (const std::uint8_t end : kEdge[e]) {
-      for (const std::uint8_t other : kEdge[o]) {
+    const VertexId m = mid(t, kRedEdge[e][0], kRedEdge[e][1]);
+    const VertexId n = mid(t, kRedEdge[o][0], kRedEdge[o][1]);
+    for (const std::uint8_t end : kRedEdge[e]) {
+      for (const std::uint8_t other : kRedEdge[o]) {
         std::array<VertexId, 4> quarter = lattice_.reds[t].nodes;
         quarter[end] = m;
         quarter[other] = n;
@@ -326,8 +157,207 @@ class PieceWriter {
 
 }  // namespace
 
+/// What the closure asks of a red tet: the edges to be split in addition, or a red split.
+struct RedGreenRefiner::Demand {
+  std::uint8_t extra = 0;
+  bool red = false;
+  std::uint8_t split = 0;  ///< the edges that are split as it is
+};
+
+RedGreenRefiner::Demand RedGreenRefiner::demand_of(const RedTet& red) const {
+  const Pattern pattern = pattern_of(lattice_, red);
+  const unsigned split = pattern.split;
+  const auto as_it_is = static_cast<std::uint8_t>(split);
+  if (split == 0) {
+    return {};
+  }
+  if (pattern.too_deep) {
+    return {0, true, as_it_is};
+  }
+  unsigned closed = split;  // with the third edge of every face that has two
+  for (const unsigned face : kFaceEdges) {
+    const unsigned of_face = split & face;
+    if (of_face != 0 && (of_face & (of_face - 1)) != 0) {
+      closed |= face;
+    }
+  }
+  const bool one = (closed & (closed - 1)) == 0;
+  const bool face = std::find(kFaceEdges.begin(), kFaceEdges.end(), closed) != kFaceEdges.end();
+  const bool opposite = closed == ((1U << 0) | (1U << 5)) || closed == ((1U << 1) | (1U << 4)) ||
+                        closed == ((1U << 2) | (1U << 3));
+  if (one || face || opposite) {
+    return {static_cast<std::uint8_t>(closed & ~split), false, as_it_is};
+  }
+  return {0, true, as_it_is};
+}
+
+std::size_t RedGreenRefiner::refine(const std::vector<std::uint8_t>& marked) {
+  const std::size_t count = lattice_.reds.size();
+  split_count_ = 0;
+  ++sweep_;
+  for (std::size_t t = 0; t < count; ++t) {
+    if (marked[t] != 0 && lattice_.reds[t].level < lattice_.frame.max_level) {
+      split_red(t);
+    }
+  }
+  for (bool changed = split_count_ > 0; changed;) {
+    ++sweep_;
+    just_touched_.swap(touched_);
+    touched_.clear();
+    changed = sweep();
+  }
+  return split_count_;
+}
+
+bool RedGreenRefiner::is_concerned(const RedTet& red) const {
+  for (const VertexId v : red.nodes) {
+    if (last_touched_[v] + 1 == sweep_) {
+      return true;
+    }
+  }
+  return std::any_of(kFaceEdges.begin(), kFaceEdges.end(), [&](unsigned face) {
+    return (red.split & face) == face && is_touched_inside(red, face);
+  });
+}
+
+/// True when an inner segment of the face may have been split by the last sweep: each has its ends at two
+/// of the three midpoints, so two of them are enough to look at.
+bool RedGreenRefiner::is_touched_inside(const RedTet& red, unsigned face) const {
+  for (unsigned edges = face & (face - 1); edges != 0; edges &= edges - 1) {
+    const auto e = static_cast<unsigned>(std::countr_zero(edges));
+    const LatticePoint& a = lattice_.points[red.nodes[kRedEdge[e][0]]];
+    const LatticePoint& b = lattice_.points[red.nodes[kRedEdge[e][1]]];
+    if (last_touched_[lattice_.table.find(midpoint(a, b))] + 1 == sweep_) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool RedGreenRefiner::sweep() {
+  const std::vector<std::uint32_t> concerned = concerned_reds();
+  std::vector<Demand> demands(concerned.size());
+#pragma omp parallel for schedule(dynamic, 512) if (concerned.size() > 2048)
+  for (std::size_t c = 0; c < concerned.size(); ++c) {
+    demands[c] = demand_of(lattice_.reds[concerned[c]]);
+  }
+  bool any = false;
+  for (std::size_t c = 0; c < concerned.size(); ++c) {
+    any = meet(concerned[c], demands[c]) || any;
+  }
+  return any;
+}
+
+/// What the last sweep can have touched, ascending. Many sweeps touch little: then it is looked up.
+std::vector<std::uint32_t> RedGreenRefiner::concerned_reds() {
+  constexpr std::size_t kRedsOfAVertex = 32;
+  constexpr int kWorthBuilding = 6;  // sweeps over all tets that cost as much as building
+  const bool few = kRedsOfAVertex * just_touched_.size() < lattice_.reds.size();
+  if (near_.is_built() && near_.is_stale()) {
+    near_.drop();
+    small_sweeps_ = 0;
+  }
+  if (few && !near_.is_built() && ++small_sweeps_ > kWorthBuilding) {
+    near_.build(lattice_);
+  }
+  if (!few || !near_.is_built()) {
+    return indices_where(lattice_.reds.size(), [&](std::size_t t) { return is_concerned(lattice_.reds[t]); });
+  }
+  std::vector<std::uint32_t> concerned;
+  near_.for_each_near(just_touched_, [&](std::uint32_t t) {
+    if (is_concerned(lattice_.reds[t])) {
+      concerned.push_back(t);
+    }
+  });
+  std::sort(concerned.begin(), concerned.end());
+  concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
+  return concerned;
+}
+
+void RedGreenRefiner::note_changed(std::size_t red) {
+  if (near_.is_built()) {
+    near_.note_changed(lattice_, red);
+  }
+}
+
+/// True when something was split for it.
+bool RedGreenRefiner::meet(std::uint32_t t, const Demand& demand) {
+  RedTet& red = lattice_.reds[t];
+  if (red.split != demand.split) {
+    red.split = demand.split;
+    note_changed(t);
+  }
+  if (demand.red) {
+    split_red(t);
+  } else if (demand.extra != 0) {
+    split_edges(red, demand.extra);
+  }
+  return demand.red || demand.extra != 0;
+}
+
+void RedGreenRefiner::touch(VertexId v) {
+  if (last_touched_[v] != sweep_) {
+    last_touched_[v] = sweep_;
+    touched_.push_back(v);
+  }
+}
+
+VertexId RedGreenRefiner::split_edge(VertexId a, VertexId b, int level) {
+  const std::size_t before = lattice_.points.size();
+  const VertexId middle = lattice_.vertex_at(midpoint(lattice_.points[a], lattice_.points[b]));
+  if (middle == before) {
+    last_touched_.push_back(0);
+    touch(middle);
+    for (const VertexId end : {a, b}) {
+      touch(end);
+      std::int8_t& below = lattice_.split_below[end];
+      below = std::max(below, static_cast<std::int8_t>(level + 1));
+    }
+  }
+  return middle;
+}
+
+void RedGreenRefiner::split_edges(const RedTet& red, unsigned edges) {
+  for (unsigned e = 0; e < 6; ++e) {
+    if ((edges >> e & 1U) != 0) {
+      split_edge(red.nodes[kRedEdge[e][0]], red.nodes[kRedEdge[e][1]], red.level);
+    }
+  }
+}
+
+/// Splits the tet at `index` in eight; the first child takes its place, the others go to the end. All
+/// children have a midpoint among their nodes, which is touched, so the next sweep looks at them.
+void RedGreenRefiner::split_red(std::size_t index) {
+  const RedTet red = lattice_.reds[index];
+  std::array<VertexId, 6> m;
+  for (unsigned e = 0; e < 6; ++e) {
+    m[e] = split_edge(red.nodes[kRedEdge[e][0]], red.nodes[kRedEdge[e][1]], red.level);
+    touch(m[e]);
+  }
+  const auto& [a, b, c, d] = red.nodes;
+  const VertexId ab = m[0], ac = m[1], ad = m[2], bc = m[3], bd = m[4], cd = m[5];
+  // The shortest inner diagonal joins the midpoints of the two long edges, ab and cd. Every child is
+  // written so that its long edges are again 0-1 and 2-3 and its orientation is the parent's.
+  const std::array<std::array<VertexId, 4>, 8> children = {{{a, ab, ac, ad},
+                                                            {ab, b, bc, bd},
+                                                            {ac, bc, c, cd},
+                                                            {ad, bd, cd, d},
+                                                            {ab, cd, ac, ad},
+                                                            {ab, cd, bc, ac},
+                                                            {ab, cd, bd, bc},
+                                                            {ab, cd, ad, bd}}};
+  const auto level = static_cast<std::int8_t>(red.level + 1);
+  lattice_.reds[index] = {children[0], level, 0};
+  note_changed(index);
+  for (std::size_t n = 1; n < children.size(); ++n) {
+    lattice_.reds.push_back({children[n], level, 0});
+    note_changed(lattice_.reds.size() - 1);
+  }
+  ++split_count_;
+}
+
 std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& marked) {
-  return Closure(lattice).run(marked);
+  return RedGreenRefiner(lattice).refine(marked);
 }
 
 std::uint32_t piece_count(const RedTet& red) {

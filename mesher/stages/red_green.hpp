@@ -5,16 +5,53 @@
 #include <vector>
 
 #include "mesher/stages/lattice.hpp"
+#include "mesher/stages/reds_of_vertices.hpp"
 
 namespace cbc3d {
 
-/// Splits the marked red tets 1:8 (inner diagonal: the shortest, so that the children are congruent to the
-/// parent) and then every red tet that the green templates cannot close, until the whole is conforming:
-///   no edge split: stays;  one edge: 1:2;  two opposite edges: 1:4;  the three edges of a face: 1:4;
-///   two edges of one face: the third edge of that face is split too;  all else: red.
-/// `marked` has one entry per red tet; tets at the deepest level are never split, marked or not: the closure
-/// never needs that, because a neighbour can be at most as deep. Returns the number of red tets that were
-/// split.
+/// Refines a lattice in rounds. The closure of a round goes in sweeps: each looks (in parallel, at a state
+/// that nobody changes) at the red tets that the last sweep can have touched, then acts in order. A new
+/// midpoint on the edge a-b concerns the tets with that edge, those of whose edges it is one half (a or b is
+/// a node of theirs), and those of whose faces it is an inner segment (all three edges of that face are
+/// split): so vertices carry the number of the sweep that last split an edge at them.
+class RedGreenRefiner {
+ public:
+  /// `lattice` must outlive this and is changed by nobody else.
+  explicit RedGreenRefiner(Lattice& lattice) : lattice_(lattice), last_touched_(lattice.points.size(), 0) {}
+
+  /// Splits the marked red tets 1:8 (inner diagonal: the shortest, so that the children are congruent to the
+  /// parent) and then every red tet that the green templates cannot close, until the whole is conforming:
+  ///   no edge split: stays;  one edge: 1:2;  two opposite edges: 1:4;  the three edges of a face: 1:4;
+  ///   two edges of one face: the third edge of that face is split too;  all else: red.
+  /// `marked` has one entry per red tet; tets at the deepest level are never split, marked or not: the
+  /// closure never needs that, because a neighbour can be at most as deep. Returns the number of red tets
+  /// that were split.
+  std::size_t refine(const std::vector<std::uint8_t>& marked);
+
+ private:
+  struct Demand;
+  bool sweep();
+  [[nodiscard]] std::vector<std::uint32_t> concerned_reds();
+  [[nodiscard]] bool is_concerned(const RedTet& red) const;
+  [[nodiscard]] bool is_touched_inside(const RedTet& red, unsigned face) const;
+  [[nodiscard]] Demand demand_of(const RedTet& red) const;
+  bool meet(std::uint32_t t, const Demand& demand);
+  void note_changed(std::size_t red);
+  void touch(VertexId v);
+  VertexId split_edge(VertexId a, VertexId b, int level);
+  void split_edges(const RedTet& red, unsigned edges);
+  void split_red(std::size_t index);
+
+  Lattice& lattice_;
+  std::vector<std::uint32_t> last_touched_;       // per vertex
+  std::vector<VertexId> touched_, just_touched_;  // by this sweep and by the last one
+  RedsOfVertices near_;
+  int small_sweeps_ = 0;  // since near_ was dropped
+  std::uint32_t sweep_ = 0;
+  std::size_t split_count_ = 0;
+};
+
+/// One round, see RedGreenRefiner.
 std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& marked);
 
 /// How many tets of the conforming mesh a red tet is: itself, or 2 or 4 green pieces.

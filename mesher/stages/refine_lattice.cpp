@@ -10,6 +10,7 @@
 #include "mesher/improve/image_boundary.hpp"
 #include "mesher/stages/check_topology.hpp"
 #include "mesher/stages/coverage.hpp"
+#include "mesher/stages/fidelity_account.hpp"
 #include "mesher/stages/lattice_places.hpp"
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/select_candidate.hpp"
@@ -22,19 +23,24 @@ namespace {
 class Refiner {
  public:
   Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options)
+      : Refiner(lattice, image, options, count_materials(image)) {}
+
+  Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
+          const MaterialVoxels& voxels)
       : lattice_(lattice),
         image_(image),
         options_(options),
         raster_(image.frame, lattice.frame),
+        account_(image, raster_, voxels.count),
         boundary_(image, {}),
-        follower_(lattice) {
-    const std::vector<std::size_t> voxels = image.voxels_per_material();
-    rank_ = rank_by_size(image, BackgroundRank::highest);
-    for (std::size_t m = 0; m < voxels.size(); ++m) {
+        red_green_(lattice),
+        follower_(lattice),
+        rank_(rank_by_size(voxels, BackgroundRank::highest)) {
+    for (std::size_t m = 0; m < image.material_count(); ++m) {
       const auto own = options.material_fidelity.find(image.labels[m]);
       result_.fidelity.push_back({static_cast<MaterialId>(m), image.labels[m],
                                   own != options.material_fidelity.end() ? own->second : options.fidelity, 0,
-                                  voxels[m], 0});
+                                  account_.image_voxels(m), 0});
     }
     if (options.max_distance_mm > 0 && options.each_interface) {
       interfaces_.emplace(image);
@@ -56,7 +62,7 @@ class Refiner {
       if (mark() == 0 || result_.rounds == options_.max_rounds || exceeds_budget()) {
         break;
       }
-      refine_red_green(lattice_, marked_);
+      red_green_.refine(marked_);
     }
     finish();
     return std::move(result_);
@@ -71,7 +77,7 @@ class Refiner {
     follower_.rebuild(mesh, number);
     judged_ = renumbered(judged_, number, mesh.tets.size(), kNotJudged);
     centroid_material_ = renumbered(centroid_material_, number, mesh.tets.size(), kBackground);
-    pure_ = renumbered(pure_, number, mesh.tets.size(), std::uint8_t{0});
+    foreign_ = renumbered(foreign_, number, mesh.tets.size(), ForeignMaterials{0});
     append_local_points(lattice_, points_);
     touched_.resize(points_.size(), 1);
     mesh.unsure.resize(points_.size(), 1);
@@ -81,10 +87,10 @@ class Refiner {
   /// Takes the tets that are gone out of the account.
   void forget_removed(const std::vector<TetId>& number) {
     touched_.assign(points_.size(), 0);
-    tally(number.size(), [&](std::size_t t, Counts& counts) {
+    tally(number.size(), [&](std::size_t t, FidelityAccount::Changes& changes) {
       if (number[t] == kNoTet) {
         touch_nodes(t);
-        recount(t, judged_[t], kNotJudged, counts);
+        leave_account(t, changes);
       }
     });
   }
@@ -123,7 +129,7 @@ class Refiner {
     touch_changed();
     find_uncovered_voxels();
     measure_fidelity();
-    mark_uncovered_elsewhere();
+    mark_uncovered();
     mark_strays();
     const std::vector<MaterialId>& materials = result_.mesh.materials;
     judged_.assign(materials.begin(), materials.end());
@@ -173,65 +179,39 @@ class Refiner {
             lattice_.points[nodes[3]]};
   }
 
-  /// Changes of |S1| and |S1 n S2|, one entry a material.
-  struct Counts {
-    std::vector<std::ptrdiff_t> inside, common;
-  };
-
-  /// Adds up what visit(t, counts) counts for t = 0 ... tets - 1, in parallel.
+  /// Adds up what visit(t, changes) finds for t = 0 ... tets - 1, in parallel.
   template <typename Visit>
   void tally(std::size_t tets, const Visit& visit) {
-    const std::size_t materials = result_.fidelity.size();
 #pragma omp parallel
     {
-      Counts counts{std::vector<std::ptrdiff_t>(materials, 0), std::vector<std::ptrdiff_t>(materials, 0)};
+      FidelityAccount::Changes changes = account_.no_changes();
 #pragma omp for schedule(dynamic, 512) nowait
       for (std::size_t t = 0; t < tets; ++t) {
-        visit(t, counts);
+        visit(t, changes);
       }
 #pragma omp critical(cbc3d_tally)
-      for (std::size_t m = 0; m < materials; ++m) {
-        result_.fidelity[m].mesh_voxels += static_cast<std::size_t>(counts.inside[m]);  // modulo 2^64
-        result_.fidelity[m].common_voxels += static_cast<std::size_t>(counts.common[m]);
-      }
+      account_.add(changes);
     }
   }
 
-  /// |S1| and |S1 n S2| of every material by exact voxel-in-tet counting of the tets that have changed; on
-  /// the way, which of them hold an uncovered boundary voxel.
+  /// |S1| and |S1 n S2| of every material, by exact voxel-in-tet counting of the tets that have changed.
   void measure_fidelity() {
-    tally(judged_.size(), [&](std::size_t t, Counts& counts) {
-      if (is_changed(t) && recount(t, judged_[t], result_.mesh.materials[t], counts)) {
-        mark_tet(t);
+    tally(judged_.size(), [&](std::size_t t, FidelityAccount::Changes& changes) {
+      if (is_changed(t)) {
+        leave_account(t, changes);
+        foreign_[t] = account_.enter(lattice_points(t), result_.mesh.materials[t], changes);
       }
     });
+    for (MaterialFidelity& f : result_.fidelity) {
+      f.mesh_voxels = account_.mesh_voxels(f.material);
+      f.common_voxels = account_.common_voxels(f.material);
+    }
   }
 
-  /// Moves the voxels in a tet from one material's account to another's; kNotJudged is none. True when one of
-  /// them is uncovered.
-  bool recount(std::size_t t, std::int32_t before, std::int32_t now, Counts& counts) {
-    std::ptrdiff_t inside = 0;
-    std::array<std::ptrdiff_t, 2> common = {0, 0};
-    bool uncovered = false;
-    raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-      inside += i_end - i_begin;
-      image_.voxels.visit([&](const auto* voxels) {
-        const auto* row = voxels + image_.frame.offset(0, j, k);
-        common[0] += before == kNotJudged ? 0 : std::count(row + i_begin, row + i_end, before);
-        common[1] += now == kNotJudged ? 0 : std::count(row + i_begin, row + i_end, now);
-      });
-      uncovered = uncovered || wants_refinement(j, k, i_begin, i_end);
-    });
-    if (before != kNotJudged) {
-      counts.inside[static_cast<std::size_t>(before)] -= inside;
-      counts.common[static_cast<std::size_t>(before)] -= common[0];
+  void leave_account(std::size_t t, FidelityAccount::Changes& changes) {
+    if (judged_[t] != kNotJudged && foreign_[t] != 0) {
+      account_.leave(lattice_points(t), static_cast<MaterialId>(judged_[t]), changes);
     }
-    if (now != kNotJudged) {
-      pure_[t] = inside == common[1] ? 1 : 0;
-      counts.inside[static_cast<std::size_t>(now)] += inside;
-      counts.common[static_cast<std::size_t>(now)] += common[1];
-    }
-    return uncovered;
   }
 
   [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const {
@@ -239,8 +219,8 @@ class Refiner {
            (interfaces_ && interfaces_->wants_refinement(j, k, i_begin, i_end));
   }
 
-  /// Marks tets with an uncovered voxel among those that have not changed: the interface that covered it has.
-  void mark_uncovered_elsewhere() {
+  /// Marks tets with an uncovered voxel.
+  void mark_uncovered() {
     if ((coverage_ ? coverage_->uncovered_count() : 0) + (interfaces_ ? interfaces_->uncovered_count() : 0) ==
         0) {
       return;
@@ -252,24 +232,20 @@ class Refiner {
     for (std::size_t r = 0; r < lattice_.reds.size(); ++r) {
       const RedTet& red = lattice_.reds[r];
       if (marked_[r] == 0 && places_->may_hold(lattice_.points[red.nodes[0]], red.level)) {
-        mark_if_uncovered(r);
+        marked_[r] = holds_uncovered(r) ? 1 : 0;
       }
     }
   }
 
-  void mark_if_uncovered(std::size_t r) {
+  [[nodiscard]] bool holds_uncovered(std::size_t r) const {
     bool uncovered = false;
     for (TetId t = follower_.first(r); t < follower_.first(r + 1) && !uncovered; ++t) {
-      if (!is_changed(t)) {
-        raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-          uncovered = wants_refinement(j, k, i_begin, i_end);
-          return uncovered;
-        });
-      }
+      raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
+        uncovered = wants_refinement(j, k, i_begin, i_end);
+        return uncovered;
+      });
     }
-    if (uncovered) {
-      marked_[r] = 1;
-    }
+    return uncovered;
   }
 
   void mark_tet(std::size_t t) {
@@ -470,20 +446,8 @@ class Refiner {
     const CandidateMesh& mesh = result_.mesh;
 #pragma omp parallel for schedule(dynamic, 512)
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      if (pure_[t] != 0 || marked_[mesh.tets.parent[t]] != 0 || !may_split_for_fidelity(t)) {
-        continue;
-      }
-      const MaterialId own = mesh.materials[t];
-      bool misjudged = false;
-      raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-        misjudged = image_.voxels.visit([&](const auto* voxels) {
-          const auto* row = voxels + image_.frame.offset(0, j, k);
-          return std::any_of(row + i_begin, row + i_end,
-                             [&](MaterialId m) { return m != own && (unmet[m] != 0 || unmet[own] != 0); });
-        });
-        return misjudged;
-      });
-      if (misjudged) {
+      if (foreign_[t] != 0 && marked_[mesh.tets.parent[t]] == 0 && may_split_for_fidelity(t) &&
+          account_.is_misjudged(lattice_points(t), mesh.materials[t], foreign_[t], unmet)) {
         mark_tet(t);
       }
     }
@@ -541,18 +505,20 @@ class Refiner {
   const LabelImage& image_;
   const RefineOptions& options_;
   VoxelRaster raster_;
+  FidelityAccount account_;
   ImageBoundary boundary_;
   std::optional<BoundaryCoverage> coverage_;
   std::optional<InterfaceCoverage> interfaces_;
   std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ or coverage_ wants
   std::vector<MaterialSet> sets_;        // of interfaces_' last update
+  RedGreenRefiner red_green_;
   LatticeFollower follower_;
+  std::vector<std::uint32_t> rank_;
   static constexpr std::int32_t kNotJudged = -1;
   std::vector<std::int32_t> judged_;          // the material each tet had when it was last judged
-  std::vector<std::uint8_t> pure_;            // 1: all voxels in the tet were then of its material
+  std::vector<ForeignMaterials> foreign_;     // what was in each tet then
   std::vector<std::uint8_t> touched_;         // vertices of tets that changed since
   std::vector<std::uint64_t> stray_verdict_;  // of vertices, see is_stray
-  std::vector<std::uint32_t> rank_;
   std::vector<Vec3> points_;
   std::vector<MaterialId> centroid_material_;
   std::vector<std::uint8_t> marked_;

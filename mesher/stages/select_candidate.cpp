@@ -78,6 +78,9 @@ class Selector {
       for (std::size_t n = 0; n < 4; ++n) {
         around[n] = neighbours_[t][n] == kNoTet ? kBackground : before[neighbours_[t][n]];
       }
+      if (std::count(around.begin(), around.end(), kBackground) > 2) {
+        continue;
+      }
       MaterialId best = kBackground;
       std::ptrdiff_t best_faces = 0;
       for (const MaterialId m : around) {
@@ -87,9 +90,7 @@ class Selector {
           best_faces = faces;
         }
       }
-      if (std::count(around.begin(), around.end(), kBackground) <= 2) {
-        materials_[t] = best;
-      }
+      materials_[t] = best;
     }
   }
 

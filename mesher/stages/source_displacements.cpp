@@ -17,29 +17,62 @@ struct LocalSurface {
   double edge_mm = 0;  // mean length of the surface edges at the source
 };
 
-/// Sums of the outward normals of open faces, by TargetPoint::faces.
-constexpr std::array<Vec3, 64> kOpenSides = [] {
-  std::array<Vec3, 64> sums{};
+/// A way that a voxel's open faces can look: the sum of their outward normals, each component -1, 0 or 1.
+struct Way {
+  Vec3 sum;
+  std::uint64_t faces = 0;  // bit f: TargetPoint::faces f looks so
+};
+
+constexpr std::array<Way, 27> kWays = [] {
+  std::array<Way, 27> ways{};
   for (unsigned faces = 0; faces < 64; ++faces) {
-    sums[faces] = {double(faces >> 1U & 1U) - double(faces & 1U),
-                   double(faces >> 3U & 1U) - double(faces >> 2U & 1U),
-                   double(faces >> 5U & 1U) - double(faces >> 4U & 1U)};
+    const auto along = [&](unsigned axis) {
+      return 1 + (faces >> (2 * axis + 1) & 1U) - (faces >> (2 * axis) & 1U);
+    };
+    Way& way = ways[along(0) + 3 * along(1) + 9 * along(2)];
+    way.sum = {double(along(0)) - 1, double(along(1)) - 1, double(along(2)) - 1};
+    way.faces |= std::uint64_t{1} << faces;
   }
-  return sums;
+  return ways;
 }();
 
-class TargetSearch {
+/// Which targets a source listens to: those whose open faces do not look against its surface.
+class Judge {
  public:
-  TargetSearch(const Correspondence& points, const std::vector<Vec3>& positions,
-               const DisplacementOptions& options)
-      : points_(points), positions_(positions), options_(options) {}
+  /// All are heard.
+  Judge() = default;
+  /// `normal`: from the lower material to the higher.
+  explicit Judge(const Vec3& normal) {
+    // Two ways that look opposite at a time: 13 in the middle is none, and always heard.
+    for (std::size_t w = 0; w < kWays.size() / 2; ++w) {
+      const double along = normal.dot(kWays[w].sum);
+      const std::uint64_t opposite = kWays[kWays.size() - 1 - w].faces;
+      heard_[1] &= ~(along < 0 ? kWays[w].faces : along > 0 ? opposite : 0);
+      heard_[0] &= ~(along > 0 ? kWays[w].faces : along < 0 ? opposite : 0);
+    }
+  }
+  [[nodiscard]] bool hears(const TargetPoint& target) const {
+    return (heard_[target.lower_side] >> target.faces & 1U) != 0;
+  }
 
-  [[nodiscard]] SourceDisplacement of(std::size_t s) const {
+ private:
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  std::array<std::uint64_t, 2> heard_ = {kAll, kAll};  // a bit by TargetPoint::faces; of lower_side 0, 1
+};
+
+/// What one call for all sources works with.
+class Search {
+ public:
+  Search(const Correspondence& points, const TargetRows& rows, const std::vector<Vec3>& positions,
+         const DisplacementOptions& options)
+      : points_(points), rows_(rows), positions_(positions), options_(options) {}
+
+  SourceDisplacement of(std::size_t s, NearTargets& near) const {
     const SourcePoint& source = points_.sources.sources[s];
     const LocalSurface surface = surface_at(s);
     SourceDisplacement found;
-    found.matched =
-        mean_vector(source, surface, found.vector) || nearest_vector(source, surface, found.vector);
+    found.matched = mean_vector(source, surface, near, found.vector) ||
+                    nearest_vector(source, surface, near, found.vector);
     if (options_.along_normal && source.two_sided) {
       found.vector = found.vector.dot(surface.normal) * surface.normal;
     }
@@ -50,68 +83,20 @@ class TargetSearch {
     return found;
   }
 
-  /// Makes sure that no source stays farther than `most_mm` from the nearest target, and no target from the
-  /// nearest source: of a pair that would, the source is pulled all the way that lacks, along the surface
-  /// too.
-  void pull_pairs(double most_mm, std::vector<SourceDisplacement>& found) const {
-    const std::size_t count = found.size();
-    std::vector<std::atomic<std::uint64_t>> source_of_target(points_.targets.targets.size());
-    std::vector<std::atomic<std::uint64_t>> target_of_source(count);
-    for (auto& nearest : source_of_target) {
-      nearest = kNoPair;
-    }
-    const TargetPoint* const first = points_.targets.targets.data();
-#pragma omp parallel for schedule(dynamic, 256)
-    for (std::size_t s = 0; s < count; ++s) {
-      std::uint64_t nearest = kNoPair;
-      for_pairs(s, 3 * most_mm, found, [&](const TargetPoint& t, double square) {
-        lower(source_of_target[static_cast<std::size_t>(&t - first)], pair_key(square, s));
-        nearest = std::min(nearest, pair_key(square, static_cast<std::size_t>(&t - first)));
-      });
-      // Held as the complement, so that the farthest target pulls.
-      target_of_source[s] = nearest == kNoPair ? kNoPair : ~nearest;
-    }
-#pragma omp parallel for schedule(static)
-    for (std::size_t t = 0; t < source_of_target.size(); ++t) {
-      const std::uint64_t pair = source_of_target[t];
-      if (pair != kNoPair) {
-        lower(target_of_source[pair & 0xFFFFFFFFU], ~((pair & ~std::uint64_t{0xFFFFFFFFU}) | t));
-      }
-    }
-    const std::vector<Vec3> centres = target_centres();
-#pragma omp parallel for schedule(static)
-    for (std::size_t s = 0; s < count; ++s) {
-      if (target_of_source[s] != kNoPair) {
-        const std::size_t t = ~target_of_source[s] & 0xFFFFFFFFU;
-        const Vec3 lacking = pair_vector(points_.targets.targets[t], centres[t], moved(s, found));
-        const double length = lacking.norm();
-        if (length > most_mm) {
-          found[s].vector += (1 - most_mm / length) * lacking;
-          found[s].matched = true;
-        }
-      }
+  /// Calls visit(target, squared distance) for the targets of the set of s within `radius` of a place.
+  template <typename Visit>
+  void for_pairs(std::size_t s, const Vec3& at, double radius, NearTargets& near, const Visit& visit) const {
+    const std::uint32_t set = points_.sources.sources[s].set;
+    rows_.find(
+        at, radius, [set](const TargetPoint& t) { return t.set == set; }, near);
+    for (std::size_t h = 0; h < near.count; ++h) {
+      const std::uint32_t t = near.hits[h].target;
+      visit(t, pair_vector(rows_.target(t), rows_.to_centre(near, near.hits[h])).squared_norm());
     }
   }
 
- private:
-  static constexpr std::uint64_t kNoPair = ~std::uint64_t{0};
-
-  /// A squared distance and a number in one key, ordered by distance first.
-  static std::uint64_t pair_key(double square, std::size_t number) {
-    return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(static_cast<float>(square))) << 32U |
-           number;
-  }
-  static void lower(std::atomic<std::uint64_t>& value, std::uint64_t key) {
-    std::uint64_t present = value;
-    while (key < present && !value.compare_exchange_weak(present, key)) {
-    }
-  }
-  [[nodiscard]] Vec3 moved(std::size_t s, const std::vector<SourceDisplacement>& found) const {
-    return positions_[points_.sources.sources[s].vertex] + found[s].vector;
-  }
   /// From a position to a target: its centre, or the nearest of its open faces.
-  [[nodiscard]] Vec3 pair_vector(const TargetPoint& target, const Vec3& centre, const Vec3& at) const {
-    const Vec3 to_centre = centre - at;
+  [[nodiscard]] Vec3 pair_vector(const TargetPoint& target, const Vec3& to_centre) const {
     if (options_.target_position == TargetPosition::voxel_centre) {
       return to_centre;
     }
@@ -131,32 +116,7 @@ class TargetSearch {
     return nearest;
   }
 
-  /// Calls visit(target, squared distance) for the targets of the set of s near where it moves to.
-  template <typename Visit>
-  void for_pairs(std::size_t s, double radius, const std::vector<SourceDisplacement>& found,
-                 const Visit& visit) const {
-    const Vec3 at = moved(s, found);
-    for_targets_near(at, radius, [&](const TargetPoint& t, const Vec3& centre) {
-      if (t.set == points_.sources.sources[s].set) {
-        visit(t, pair_vector(t, centre, at).squared_norm());
-      }
-    });
-  }
-  [[nodiscard]] std::vector<Vec3> target_centres() const {
-    const TargetPoints& targets = points_.targets;
-    std::vector<Vec3> centres(targets.targets.size());
-    const auto rows = static_cast<std::size_t>(points_.frame.size[1]);
-    const std::size_t row_count = targets.first.size() - 1;
-#pragma omp parallel for schedule(static, 1024)
-    for (std::size_t r = 0; r < row_count; ++r) {
-      for (std::uint64_t t = targets.first[r]; t < targets.first[r + 1]; ++t) {
-        centres[t] = points_.frame.local_centre(targets.targets[t].i, static_cast<int>(r % rows),
-                                                static_cast<int>(r / rows));
-      }
-    }
-    return centres;
-  }
-
+ private:
   [[nodiscard]] LocalSurface surface_at(std::size_t s) const {
     const SourcePoints& sources = points_.sources;
     const VertexId own = sources.sources[s].vertex;
@@ -176,68 +136,16 @@ class TargetSearch {
     return surface;
   }
 
-  /// Calls visit(target, its voxel's centre) for the targets whose voxel centre is in the ball.
-  template <typename Visit>
-  void for_targets_near(const Vec3& position, double radius, const Visit& visit) const {
-    const ImageFrame& frame = points_.frame;
-    const auto range = [&](int axis) {
-      const double spacing = frame.spacing_mm[axis];
-      const int size = frame.size[static_cast<std::size_t>(axis)];
-      return std::pair{std::max(0, static_cast<int>(std::ceil((position[axis] - radius) / spacing))),
-                       std::min(size - 1, static_cast<int>(std::floor((position[axis] + radius) / spacing)))};
-    };
-    const auto [i_first, i_last] = range(0);
-    const auto [j_first, j_last] = range(1);
-    const auto [k_first, k_last] = range(2);
-    for (int k = k_first; k <= k_last; ++k) {
-      const double z = k * frame.spacing_mm.z;
-      const double left_z = radius * radius - (z - position.z) * (z - position.z);
-      for (int j = j_first; j <= j_last; ++j) {
-        const double y = j * frame.spacing_mm.y;
-        const double left = left_z - (y - position.y) * (y - position.y);
-        const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(frame.size[1]) +
-                                static_cast<std::size_t>(j);
-        const TargetPoint* const row_end = points_.targets.targets.data() + points_.targets.first[row + 1];
-        const TargetPoint* t = points_.targets.targets.data() + points_.targets.first[row];
-        if (t == row_end || left < 0) {
-          continue;
-        }
-        for (t = first_from(t, row_end, i_first); t != row_end && t->i <= i_last; ++t) {
-          const double x = t->i * frame.spacing_mm.x;
-          if ((x - position.x) * (x - position.x) <= left) {
-            visit(*t, Vec3{x, y, z});
-          }
-        }
-      }
-    }
-  }
-
-  /// The first target of a row whose index is at least i. Most rows have none or a few.
-  static const TargetPoint* first_from(const TargetPoint* t, const TargetPoint* row_end, int i) {
-    constexpr std::ptrdiff_t kFew = 8;
-    if (row_end - t > kFew) {
-      return std::lower_bound(t, row_end, i, [](const TargetPoint& a, int b) { return a.i < b; });
-    }
-    while (t != row_end && t->i < i) {
-      ++t;
-    }
-    return t;
-  }
-
   /// Calls pull(vector, weight) for what a target offers: its centre, or its faces as far as they look the
-  /// surface's way.
+  /// surface's way. Whether a centre is heard is asked before.
   template <typename Pull>
-  void offer(const SourcePoint& source, const LocalSurface& surface, const TargetPoint& target,
-             const Vec3& centre, const Pull& pull) const {
-    const Vec3 outward = target.lower_side ? surface.normal : -surface.normal;
-    const Vec3 to_centre = centre - surface.position;
-    const bool judged = source.two_sided && options_.reject_outliers;
+  void offer(bool judged, const LocalSurface& surface, const TargetPoint& target, const Vec3& to_centre,
+             const Pull& pull) const {
     if (options_.target_position == TargetPosition::voxel_centre) {
-      if (!judged || !(outward.dot(kOpenSides[target.faces & 63U]) < 0)) {
-        pull(to_centre, 1.0);
-      }
+      pull(to_centre, 1.0);
       return;
     }
+    const Vec3 outward = target.lower_side != 0 ? surface.normal : -surface.normal;
     for (unsigned faces = target.faces; faces != 0; faces &= faces - 1) {
       const int f = std::countr_zero(faces);
       const int axis = f / 2;
@@ -251,27 +159,44 @@ class TargetSearch {
     }
   }
 
+  [[nodiscard]] bool is_judged(const SourcePoint& source) const {
+    return source.two_sided && options_.reject_outliers;
+  }
+  /// Of the centres; faces are weighed one by one.
+  [[nodiscard]] Judge judge_of(const SourcePoint& source, const LocalSurface& surface) const {
+    return is_judged(source) && options_.target_position == TargetPosition::voxel_centre
+               ? Judge(surface.normal)
+               : Judge();
+  }
+
   /// How far beyond a ball the centres of voxels lie whose targets are in it.
   [[nodiscard]] double centre_margin() const {
     return options_.target_position == TargetPosition::voxel_faces ? points_.frame.spacing_mm.max_coeff() / 2
                                                                    : 0;
   }
 
-  bool mean_vector(const SourcePoint& source, const LocalSurface& surface, Vec3& mean) const {
+  bool mean_vector(const SourcePoint& source, const LocalSurface& surface, NearTargets& near,
+                   Vec3& mean) const {
     const double radius = surface.edge_mm;
+    const Judge judge = judge_of(source, surface);
+    rows_.find(
+        surface.position, radius + centre_margin(),
+        [&judge, set = source.set](const TargetPoint& t) {
+          return (static_cast<unsigned>(t.set == set) & static_cast<unsigned>(judge.hears(t))) != 0;
+        },
+        near);
     Vec3 sum;
     double total = 0;
-    for_targets_near(surface.position, radius + centre_margin(),
-                     [&](const TargetPoint& t, const Vec3& centre) {
-                       if (t.set == source.set) {
-                         offer(source, surface, t, centre, [&](const Vec3& vector, double weight) {
-                           if (vector.squared_norm() <= radius * radius) {
-                             sum += weight * vector;
-                             total += weight;
-                           }
-                         });
-                       }
-                     });
+    for (std::size_t h = 0; h < near.count; ++h) {
+      const NearTargets::Hit& hit = near.hits[h];
+      offer(is_judged(source), surface, rows_.target(hit.target), rows_.to_centre(near, hit),
+            [&](const Vec3& vector, double weight) {
+              if (vector.squared_norm() <= radius * radius) {
+                sum += weight * vector;
+                total += weight;
+              }
+            });
+    }
     mean = total > 0 ? sum / total : Vec3{};
     return total > 0;
   }
@@ -293,47 +218,133 @@ class TargetSearch {
   }
 
   /// For sources without a target in their region: the nearest beyond, of the best matching sets.
-  bool nearest_vector(const SourcePoint& source, const LocalSurface& surface, Vec3& nearest) const {
+  bool nearest_vector(const SourcePoint& source, const LocalSurface& surface, NearTargets& near,
+                      Vec3& nearest) const {
+    const Judge judge = judge_of(source, surface);
+    rows_.find(
+        surface.position, options_.reach * surface.edge_mm + centre_margin(),
+        [&judge](const TargetPoint& t) { return judge.hears(t); }, near);
     int best = 3;
     double shortest = std::numeric_limits<double>::max();
-    for_targets_near(surface.position, options_.reach * surface.edge_mm + centre_margin(),
-                     [&](const TargetPoint& t, const Vec3& centre) {
-                       const int differs = mismatch(source, t);
-                       if (differs > best || differs == 3) {
-                         return;
-                       }
-                       offer(source, surface, t, centre, [&](const Vec3& vector, double) {
-                         const double square = vector.squared_norm();
-                         if (differs < best || square < shortest) {
-                           best = differs;
-                           shortest = square;
-                           nearest = vector;
-                         }
-                       });
-                     });
+    for (std::size_t h = 0; h < near.count; ++h) {
+      const TargetPoint& target = rows_.target(near.hits[h].target);
+      const int differs = mismatch(source, target);
+      if (differs > best || differs == 3) {
+        continue;
+      }
+      offer(is_judged(source), surface, target, rows_.to_centre(near, near.hits[h]),
+            [&](const Vec3& vector, double) {
+              const double square = vector.squared_norm();
+              if (differs < best || square < shortest) {
+                best = differs;
+                shortest = square;
+                nearest = vector;
+              }
+            });
+    }
     return best < 3;
   }
 
   const Correspondence& points_;
+  const TargetRows& rows_;
   const std::vector<Vec3>& positions_;
   const DisplacementOptions& options_;
 };
 
+constexpr std::uint64_t kNoPair = ~std::uint64_t{0};
+
+/// A squared distance and a number in one key, ordered by distance first.
+std::uint64_t pair_key(double square, std::size_t number) {
+  return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(static_cast<float>(square))) << 32U | number;
+}
+std::size_t number_of(std::uint64_t key) {
+  return key & 0xFFFFFFFFU;
+}
+
+/// True when the distance of a pair is surely no more than that, for all that the key is rounded.
+bool is_within(std::uint64_t key, double most_mm) {
+  constexpr double kRounding = 1e-6;
+  return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32U)) < (1 - kRounding) * most_mm * most_mm;
+}
+
+/// Sets a value that several threads may lower to the lowest that they give.
+void lower(std::uint64_t& value, std::uint64_t key) {
+  const std::atomic_ref<std::uint64_t> shared(value);
+  std::uint64_t present = shared.load(std::memory_order_relaxed);
+  while (key < present && !shared.compare_exchange_weak(present, key, std::memory_order_relaxed)) {
+  }
+}
+
+void forget(std::vector<std::uint64_t>& pairs, std::size_t count) {
+  pairs.resize(count);
+#pragma omp parallel for schedule(static)
+  for (std::size_t p = 0; p < count; ++p) {
+    pairs[p] = kNoPair;
+  }
+}
+
 }  // namespace
 
-std::vector<SourceDisplacement> source_displacements(const Correspondence& points,
-                                                     const std::vector<Vec3>& positions,
-                                                     const DisplacementOptions& options) {
-  const TargetSearch search(points, positions, options);
-  std::vector<SourceDisplacement> found(points.sources.sources.size());
-#pragma omp parallel for schedule(dynamic, 256)
-  for (std::size_t s = 0; s < found.size(); ++s) {
-    found[s] = search.of(s);
+std::vector<SourceDisplacement> SourceDisplacements::at(const std::vector<Vec3>& positions) {
+  const Search search(points_, rows_, positions, options_);
+  std::vector<SourceDisplacement> found(points_.sources.sources.size());
+#pragma omp parallel
+  {
+    NearTargets near;
+#pragma omp for schedule(dynamic, 256)
+    for (std::size_t s = 0; s < found.size(); ++s) {
+      found[s] = search.of(s, near);
+    }
   }
-  if (options.pair_distance > 0) {
-    search.pull_pairs(options.pair_distance * points.frame.voxel_diagonal_mm(), found);
+  if (options_.pair_distance > 0) {
+    pull_pairs(positions, options_.pair_distance * points_.frame.voxel_diagonal_mm(), found);
   }
   return found;
+}
+
+/// Makes sure that no source stays farther than `most_mm` from the nearest target, and no target from the
+/// nearest source: of a pair that would, the source is pulled all the way that lacks, along the surface too.
+void SourceDisplacements::pull_pairs(const std::vector<Vec3>& positions, double most_mm,
+                                     std::vector<SourceDisplacement>& found) {
+  const Search search(points_, rows_, positions, options_);
+  const auto moved = [&](std::size_t s) {
+    return positions[points_.sources.sources[s].vertex] + found[s].vector;
+  };
+  forget(source_of_target_, points_.targets.targets.size());
+  target_of_source_.resize(found.size());
+#pragma omp parallel
+  {
+    NearTargets near;
+#pragma omp for schedule(dynamic, 256)
+    for (std::size_t s = 0; s < found.size(); ++s) {
+      std::uint64_t nearest = kNoPair;
+      search.for_pairs(s, moved(s), 3 * most_mm, near, [&](std::uint32_t t, double square) {
+        lower(source_of_target_[t], pair_key(square, s));
+        nearest = std::min(nearest, pair_key(square, t));
+      });
+      // Held as the complement, so that the farthest target pulls.
+      target_of_source_[s] = nearest == kNoPair ? kNoPair : ~nearest;
+    }
+  }
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < source_of_target_.size(); ++t) {
+    const std::uint64_t pair = source_of_target_[t];
+    if (pair != kNoPair && !is_within(pair, most_mm)) {
+      lower(target_of_source_[number_of(pair)], ~((pair & ~std::uint64_t{0xFFFFFFFFU}) | t));
+    }
+  }
+#pragma omp parallel for schedule(static)
+  for (std::size_t s = 0; s < found.size(); ++s) {
+    if (target_of_source_[s] != kNoPair && !is_within(~target_of_source_[s], most_mm)) {
+      const auto t = static_cast<std::uint32_t>(number_of(~target_of_source_[s]));
+      const Vec3 lacking = search.pair_vector(rows_.target(t), rows_.centre(t) - moved(s));
+      const double length = lacking.norm();
+      if (length > most_mm) {
+        found[s].vector += (1 - most_mm / length) * lacking;
+        found[s].matched = true;
+      }
+    }
+  }
 }
 
 }  // namespace cbc3d

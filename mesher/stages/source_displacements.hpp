@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/stages/deformation_points.hpp"
+#include "mesher/stages/target_rows.hpp"
 
 namespace cbc3d {
 
@@ -32,16 +33,31 @@ struct Correspondence {
   const ImageFrame& frame;
 };
 
-/// For each source the mean of the vectors to the targets of its label set in the ball round it whose radius
-/// is the mean length of its surface edges; zero with `matched` 0 where there is none. Sources whose set no
-/// target has use the nearest of those sets that are nearest to theirs. Parallel; the same result at any
-/// thread count.
 struct SourceDisplacement {
   Vec3 vector;
   bool matched = false;
 };
-std::vector<SourceDisplacement> source_displacements(const Correspondence& points,
-                                                     const std::vector<Vec3>& positions,
-                                                     const DisplacementOptions& options);
+
+/// For each source the mean of the vectors to the targets of its label set in the ball round it whose radius
+/// is the mean length of its surface edges; zero with `matched` 0 where there is none. Sources whose set no
+/// target has use the nearest of those sets that are nearest to theirs. Parallel; the same result at any
+/// thread count. What is the same at all positions is made ready once.
+class SourceDisplacements {
+ public:
+  /// What `points` refers to must outlive this.
+  SourceDisplacements(const Correspondence& points, const DisplacementOptions& options)
+      : points_(points), options_(options), rows_(points.targets, points.frame) {}
+
+  /// With the vertices of the mesh at these positions.
+  [[nodiscard]] std::vector<SourceDisplacement> at(const std::vector<Vec3>& positions);
+
+ private:
+  void pull_pairs(const std::vector<Vec3>& positions, double most_mm, std::vector<SourceDisplacement>& found);
+
+  Correspondence points_;
+  DisplacementOptions options_;
+  TargetRows rows_;
+  std::vector<std::uint64_t> source_of_target_, target_of_source_;  // pairs; kept for their memory
+};
 
 }  // namespace cbc3d

@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/parallel.hpp"
 
 namespace cbc3d {
 namespace {
@@ -55,16 +56,21 @@ void for_vertex_ranges(std::size_t vertex_count, const F& f) {
   }
 }
 
-/// Calls f(face's smallest vertex, tet, node) for the faces of unknown neighbours whose smallest vertex is in
-/// [begin, end), in order.
-template <typename F>
-void for_each_face(const TetNodes& tets, const Neighbours& neighbours, VertexId begin, VertexId end,
-                   const F& f) {
-  for (std::size_t t = 0; t < tets.size(); ++t) {
+/// Tets with an unknown neighbour, ascending: in a late round of a refinement few of all.
+std::vector<TetId> tets_to_match(const Neighbours& neighbours) {
+  return indices_where(neighbours.size(), [&](std::size_t t) {
     const auto& across = neighbours[t];
-    if (std::find(across.begin(), across.end(), kUnknownTet) == across.end()) {
-      continue;
-    }
+    return std::find(across.begin(), across.end(), kUnknownTet) != across.end();
+  });
+}
+
+/// Calls f(face's smallest vertex, tet, node) for the faces of unknown neighbours of the tets `open` whose
+/// smallest vertex is in [begin, end), in order.
+template <typename F>
+void for_each_face(const TetNodes& tets, const Neighbours& neighbours, const std::vector<TetId>& open,
+                   VertexId begin, VertexId end, const F& f) {
+  for (const TetId t : open) {
+    const auto& across = neighbours[t];
     // The smallest node is in every face but the one opposite to it, whose smallest is the second.
     const auto& tet = tets[t];
     const auto [low_a, high_a] = std::minmax(tet[0], tet[1]);
@@ -88,19 +94,20 @@ void sum_up(std::vector<std::uint32_t>& first) {
 }
 
 FaceBuckets bucket_faces(const TetNodes& tets, const Neighbours& neighbours, std::size_t vertex_count) {
+  const std::vector<TetId> open = tets_to_match(neighbours);
   FaceBuckets buckets;
   buckets.first.assign(vertex_count + 1, 0);
   for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
-    for_each_face(tets, neighbours, begin, end,
-                  [&](VertexId least, std::size_t, unsigned) { ++buckets.first[least + 1]; });
+    for_each_face(tets, neighbours, open, begin, end,
+                  [&](VertexId least, TetId, unsigned) { ++buckets.first[least + 1]; });
   });
   sum_up(buckets.first);
   buckets.faces.resize(buckets.first.back());
   std::vector<std::uint32_t> next(buckets.first.begin(), buckets.first.end() - 1);
   for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
-    for_each_face(tets, neighbours, begin, end, [&](VertexId least, std::size_t t, unsigned n) {
+    for_each_face(tets, neighbours, open, begin, end, [&](VertexId least, TetId t, unsigned n) {
       const Face face = sorted_face(tets[t], n);
-      buckets.faces[next[least]++] = {face[1], face[2], static_cast<std::uint32_t>(4 * t + n)};
+      buckets.faces[next[least]++] = {face[1], face[2], 4 * t + n};
     });
   });
   return buckets;

@@ -22,12 +22,66 @@ std::uint64_t mix(std::uint64_t h) {
   return h ^ (h >> 31U);
 }
 
+/// The 2x2x2 cells of a row of voxels, a register full of them at once. Corner c of a cell is one voxel on
+/// along x where bit 0 of c is set, along y where bit 1, along z where bit 2.
+template <typename Voxel>
+class CellLanes {
+ public:
+  using Register = VoxelLanes<Voxel>;
+  using Lanes = typename Register::Lanes;
+  using Mask = typename Register::Mask;
+
+  CellLanes(const Voxel* first, std::size_t row, std::size_t slice) {
+    const std::array<const Voxel*, 4> rows = {first, first + row, first + slice, first + row + slice};
+    for (std::size_t r = 0; r < 4; ++r) {
+      corner_[2 * r] = Register::load(rows[r]);
+      corner_[2 * r + 1] = Register::load(rows[r] + 1);
+    }
+  }
+
+  /// True when no cell has two materials, as nearly everywhere.
+  [[nodiscard]] bool uniform() const {
+    Lanes differ = corner_[0] ^ corner_[1];
+    for (std::size_t c = 2; c < 8; ++c) {
+      differ |= corner_[0] ^ corner_[c];
+    }
+    return !Register::any(differ);
+  }
+
+  [[nodiscard]] Mask vertex_contacts() const {
+    Mask found{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      Mask contact = (corner_[c] != 0) & (corner_[c] == corner_[7 - c]);
+      for (std::size_t other = 0; other < 8; ++other) {
+        contact &= other == c || other == 7 - c ? contact : corner_[other] != corner_[c];
+      }
+      found |= contact;
+    }
+    return found;
+  }
+
+  /// In the three squares at corner 0.
+  [[nodiscard]] Mask edge_contacts() const {
+    return square_contacts(1, 2) | square_contacts(2, 4) | square_contacts(4, 1);
+  }
+
+ private:
+  [[nodiscard]] Mask square_contacts(std::size_t u, std::size_t w) const {
+    return diagonal_contacts(corner_[0], corner_[u | w], corner_[u], corner_[w]) |
+           diagonal_contacts(corner_[u], corner_[w], corner_[0], corner_[u | w]);
+  }
+  static Mask diagonal_contacts(const Lanes& a, const Lanes& b, const Lanes& one, const Lanes& other) {
+    return (a != 0) & (a == b) & (a != one) & (a != other);
+  }
+
+  std::array<Lanes, 8> corner_;
+};
+
 class ContactRemover {
  public:
   ContactRemover(LabelImage& image, std::uint64_t seed)
       : image_(image),
         seed_(seed),
-        priority_(rank_by_size(image, BackgroundRank::lowest)),
         step_{1, static_cast<std::size_t>(image.frame.size[0]),
               static_cast<std::size_t>(image.frame.size[0]) * static_cast<std::size_t>(image.frame.size[1])} {
   }
@@ -40,9 +94,13 @@ class ContactRemover {
   }
 
   ContactReport run() {
+    report_.gained.assign(image_.material_count(), 0);
     auto [vertex_places, edge_places] = places_in_image();
     report_.vertex_contacts = vertex_places.size();
     report_.edge_contacts = edge_places.size();
+    if (!vertex_places.empty() || !edge_places.empty()) {
+      priority_ = rank_by_size(count_materials(image_), BackgroundRank::lowest);
+    }
     while (!vertex_places.empty() || !edge_places.empty()) {
       ++report_.rounds;
       // First all vertex contacts, then the edge contacts; changes make new places to look at.
@@ -81,16 +139,9 @@ class ContactRemover {
     for (int k = 0; k < size[2]; ++k) {
       Places& slice = found[static_cast<std::size_t>(k)];
       for (int j = 0; j < size[1]; ++j) {
-        for (int i = first_mixed(0, j, k); i < size[0]; i = first_mixed(i + 1, j, k)) {
-          const std::size_t v = image_.frame.offset(i, j, k);
-          if (may_have_contact(v, {i, j, k})) {
-            if (find_contact(v, Kind::vertex)) {
-              slice.vertex.push_back(v);
-            }
-            if (find_contact(v, Kind::edge)) {
-              slice.edge.push_back(v);
-            }
-          }
+        const bool within = j + 1 < size[1] && k + 1 < size[2];
+        for (int i = within ? add_places_of_lanes(j, k, slice) : 0; i < size[0]; ++i) {
+          add_place({i, j, k}, slice);
         }
       }
     }
@@ -102,28 +153,52 @@ class ContactRemover {
     return places;
   }
 
-  /// From i on in the row (j, k), the first voxel that is not passed over at a glance: where eight bytes of
-  /// voxels are alike with all neighbours towards larger indices there is no contact.
-  [[nodiscard]] int first_mixed(int i, int j, int k) const {
-    const auto& size = image_.frame.size;
-    if (j + 1 == size[1] || k + 1 == size[2]) {
-      return i;
-    }
-    return image_.voxels.visit([&]<typename Voxel>(const Voxel* voxels) {
-      const Voxel* row = voxels + image_.frame.offset(0, j, k);
-      while (i + kVoxelsInWord<Voxel> < size[0]) {
-        const std::uint64_t own = voxel_word(row + i);
-        std::uint64_t differ = own ^ voxel_word(row + i + 1);
-        for (const std::size_t away : {step_[1], step_[2], step_[1] + step_[2]}) {
-          differ |= (own ^ voxel_word(row + i + away)) | (own ^ voxel_word(row + i + away + 1));
-        }
-        if (differ != 0) {
-          break;
-        }
-        i += kVoxelsInWord<Voxel>;
+  void add_place(const Index3& index, Places& places) const {
+    const std::size_t v = image_.frame.offset(index[0], index[1], index[2]);
+    if (may_have_contact(v, index)) {
+      if (find_contact(v, Kind::vertex)) {
+        places.vertex.push_back(v);
       }
-      return i;
+      if (find_contact(v, Kind::edge)) {
+        places.edge.push_back(v);
+      }
+    }
+  }
+
+  /// The places of a row that has others above it on both axes, up to the index that is returned: those
+  /// beyond have no register full of neighbours.
+  int add_places_of_lanes(int j, int k, Places& places) const {
+    return image_.voxels.visit([&]<typename Voxel>(const Voxel* voxels) {
+      constexpr int kCount = VoxelLanes<Voxel>::kCount;
+      const std::size_t row = image_.frame.offset(0, j, k);
+      const int end = image_.frame.size[0] - 1;  // of the cells with all eight corners
+      if (end < kCount) {
+        return 0;
+      }
+      for (int done = 0; done < end;) {
+        const int i = std::min(done, end - kCount);  // the last register looks at some cells again
+        const std::size_t v = row + static_cast<std::size_t>(i);
+        const CellLanes<Voxel> cells(voxels + v, step_[1], step_[2]);
+        if (!cells.uniform()) {
+          add_lanes(cells.vertex_contacts(), v, done - i, places.vertex);
+          add_lanes(cells.edge_contacts(), v, done - i, places.edge);
+        }
+        done = i + kCount;
+      }
+      return end;
     });
+  }
+
+  template <typename Mask>
+  static void add_lanes(const Mask& contacts, std::size_t v, int from, std::vector<std::size_t>& places) {
+    if (VoxelLanes<std::uint8_t>::any(contacts)) {
+      constexpr int kCount = static_cast<int>(sizeof contacts / sizeof contacts[0]);
+      for (int lane = from; lane < kCount; ++lane) {
+        if (contacts[lane] != 0) {
+          places.push_back(v + static_cast<std::size_t>(lane));
+        }
+      }
+    }
   }
 
   /// Cheap test that nearly every voxel fails: all eight voxels of the cell are the same.
@@ -249,6 +324,8 @@ class ContactRemover {
 
   void set(std::size_t v, MaterialId m) {
     if (at(v) != m) {
+      --report_.gained[at(v)];
+      ++report_.gained[m];
       image_.voxels.set(v, m);
       changed_.push_back(v);
       ++report_.voxels_changed;
@@ -277,7 +354,7 @@ class ContactRemover {
 
   LabelImage& image_;
   std::uint64_t seed_;
-  std::vector<std::uint32_t> priority_;
+  std::vector<std::uint32_t> priority_;  // by material; only where there are contacts
   std::array<std::size_t, 3> step_;
   std::vector<std::size_t> changed_;
   ContactReport report_;

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "mesher/core/label_image.hpp"
 
@@ -18,6 +19,7 @@ struct ContactReport {
   std::size_t edge_contacts = 0;
   std::size_t voxels_changed = 0;  ///< changes made, a voxel changed twice counts twice
   int rounds = 0;
+  std::vector<std::ptrdiff_t> gained;  ///< voxels by material, fewer than none where it lost some
 };
 
 /// Removes all contacts of all labelled materials by the paper's templates: a vertex contact takes one of the

@@ -21,14 +21,25 @@ std::int64_t ceil_div(std::int64_t dividend, std::int64_t divisor) {
 VoxelRaster::VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice) {
   const double scale = static_cast<double>(Fixed{1} << kFractionBits) / lattice.unit_mm;
   for (int d = 0; d < 3; ++d) {
-    Axis& axis = axes_[static_cast<std::size_t>(d)];
-    axis.centre.resize(static_cast<std::size_t>(image.size[static_cast<std::size_t>(d)]));
-    for (std::size_t i = 0; i < axis.centre.size(); ++i) {
-      axis.centre[i] =
-          std::llround((static_cast<double>(i) * image.spacing_mm[d] - lattice.origin_mm[d]) * scale);
-    }
-    axis.inverse_step = 1 / (image.spacing_mm[d] * scale);
+    const auto axis = static_cast<std::size_t>(d);
+    axes_[axis] = make_axis(image.size[axis], image.spacing_mm[d], lattice.origin_mm[d], scale);
   }
+}
+
+VoxelRaster::Axis VoxelRaster::make_axis(int size, double spacing_mm, double origin_mm, double scale) {
+  Axis axis;
+  axis.inverse_step = 1 / (spacing_mm * scale);
+  axis.centre.resize(static_cast<std::size_t>(size));
+  for (std::size_t i = 0; i < axis.centre.size(); ++i) {
+    axis.centre[i] = std::llround((static_cast<double>(i) * spacing_mm - origin_mm) * scale);
+  }
+  axis.first_unit = static_cast<std::int32_t>(axis.centre.front() >> kFractionBits) - 1;
+  const auto last_unit = static_cast<std::int32_t>(axis.centre.back() >> kFractionBits) + 1;
+  for (std::int32_t unit = axis.first_unit; unit <= last_unit; ++unit) {
+    const Fixed position = static_cast<Fixed>(unit) << kFractionBits;
+    axis.ends_of_unit.push_back({axis.first_at_or_after(position), axis.first_at_or_after(position + 1)});
+  }
+  return axis;
 }
 
 int VoxelRaster::Axis::first_at_or_after(Fixed position) const {
@@ -49,8 +60,7 @@ std::array<std::array<int, 2>, 3> VoxelRaster::voxels_in_box(const LatticePoint&
                                                              const LatticePoint& high) const {
   std::array<std::array<int, 2>, 3> range{};
   for (std::size_t d = 0; d < 3; ++d) {
-    range[d] = {axes_[d].first_at_or_after(static_cast<Fixed>(low[d]) << kFractionBits),
-                axes_[d].first_at_or_after((static_cast<Fixed>(high[d]) << kFractionBits) + 1)};
+    range[d] = {axes_[d].ends(low[d]).at_or_after, axes_[d].ends(high[d]).after};
   }
   return range;
 }

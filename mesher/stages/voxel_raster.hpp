@@ -45,7 +45,21 @@ class VoxelRaster {
     /// First index whose centre is >= position (size when there is none).
     [[nodiscard]] int first_at_or_after(Fixed position) const;
     double inverse_step = 1;
+
+    /// The first indices whose centres are >= a lattice coordinate, and > it.
+    struct Ends {
+      int at_or_after, after;
+    };
+    std::vector<Ends>
+        ends_of_unit;  ///< from coordinate first_unit on; what lies outside is as its last or first
+    std::int32_t first_unit = 0;
+    [[nodiscard]] const Ends& ends(std::int32_t unit) const {
+      const auto last = static_cast<std::int32_t>(ends_of_unit.size()) - 1;
+      return ends_of_unit[static_cast<std::size_t>(std::clamp(unit - first_unit, 0, last))];
+    }
   };
+
+  static Axis make_axis(int size, double spacing_mm, double origin_mm, double scale);
 
   template <typename Row>
   static bool ends(Row& row, int j, int k, int i_begin, int i_end) {
@@ -66,30 +80,23 @@ class VoxelRaster {
 
 template <typename Row>
 void VoxelRaster::for_each_row(const std::array<LatticePoint, 4>& tet, Row&& row) const {
-  std::array<Fixed, 3> low;
-  std::array<Fixed, 3> high;
+  LatticePoint low = tet[0];
+  LatticePoint high = tet[0];
   for (std::size_t d = 0; d < 3; ++d) {
-    low[d] = high[d] = tet[0][d];
     for (std::size_t n = 1; n < 4; ++n) {
-      low[d] = std::min<Fixed>(low[d], tet[n][d]);
-      high[d] = std::max<Fixed>(high[d], tet[n][d]);
+      low[d] = std::min(low[d], tet[n][d]);
+      high[d] = std::max(high[d], tet[n][d]);
     }
-    low[d] <<= kFractionBits;
-    high[d] = (high[d] << kFractionBits) + 1;
   }
-  const int k_end = axes_[2].first_at_or_after(high[2]);
-  const int j_begin = axes_[1].first_at_or_after(low[1]);
-  const int j_end = axes_[1].first_at_or_after(high[1]);
-  int k = axes_[2].first_at_or_after(low[2]);
-  if (k >= k_end || j_begin >= j_end ||
-      axes_[0].first_at_or_after(low[0]) >= axes_[0].first_at_or_after(high[0])) {
+  const auto box = voxels_in_box(low, high);
+  if (std::any_of(box.begin(), box.end(), [](const auto& range) { return range[0] >= range[1]; })) {
     return;
   }
   const std::array<HalfSpace, 4> sides = half_spaces(tet);
-  for (; k < k_end; ++k) {
-    for (int j = j_begin; j < j_end; ++j) {
-      Fixed x_low = low[0];
-      Fixed x_high = high[0];
+  for (int k = box[2][0]; k < box[2][1]; ++k) {
+    for (int j = box[1][0]; j < box[1][1]; ++j) {
+      Fixed x_low = static_cast<Fixed>(low[0]) << kFractionBits;
+      Fixed x_high = (static_cast<Fixed>(high[0]) << kFractionBits) + 1;
       if (clip_row(sides, axes_[1].centre[static_cast<std::size_t>(j)],
                    axes_[2].centre[static_cast<std::size_t>(k)], x_low, x_high)) {
         const int i_begin = axes_[0].first_at_or_after(x_low);

@@ -64,26 +64,29 @@ class Regions {
   }
 
  private:
+  /// Slice by slice in parallel, the image read once.
   void collect_runs() {
-    const std::size_t rows =
-        static_cast<std::size_t>(image_.frame.size[1]) * static_cast<std::size_t>(image_.frame.size[2]);
-    first_.assign(rows + 1, 0);
-#pragma omp parallel for schedule(static)
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::size_t count = 0;
-      for_each_run(row, [&count](const Run&) { ++count; });
-      first_[row + 1] = count;
+    const auto ny = static_cast<std::size_t>(image_.frame.size[1]);
+    const auto nz = static_cast<std::size_t>(image_.frame.size[2]);
+    std::vector<std::vector<Run>> slices(nz);
+    first_.assign(ny * nz + 1, 0);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t k = 0; k < nz; ++k) {
+      for (std::size_t row = k * ny; row < (k + 1) * ny; ++row) {
+        const std::size_t before = slices[k].size();
+        for_each_run(row, [&](const Run& run) { slices[k].push_back(run); });
+        first_[row + 1] = slices[k].size() - before;
+      }
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     if (first_.back() > std::numeric_limits<std::uint32_t>::max()) {
       throw JobError("the image has " + std::to_string(first_.back()) +
                      " runs of equal voxels, more than can be numbered; remove its noise first");
     }
-    runs_.resize(first_.back());
-#pragma omp parallel for schedule(static)
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::size_t next = first_[row];
-      for_each_run(row, [&](const Run& run) { runs_[next++] = run; });
+    runs_.reserve(first_.back());
+    for (std::vector<Run>& slice : slices) {
+      runs_.insert(runs_.end(), slice.begin(), slice.end());
+      slice = {};
     }
   }
 

@@ -86,6 +86,38 @@ TEST(VoxelContacts, CountsAgreeWithTheDefinition) {
   EXPECT_EQ(contacts_by_definition(image), 1U);
 }
 
+/// Cells are looked at a register at a time, the last one of a row over again: none may be missed or counted
+/// twice, of voxels of one byte (material 1) or two (material 300).
+TEST(VoxelContacts, AreFoundOnceAnywhereInARow) {
+  for (const MaterialId material : {1, 300}) {
+    for (const int length : {2, 9, 16, 17, 18, 33, 40}) {
+      for (int i = 0; i + 1 < length; ++i) {
+        LabelImage image = empty_image({length, 2, 2}, 300);
+        image.voxels[image.frame.offset(i, 1, 0)] = material;
+        image.voxels[image.frame.offset(i + 1, 0, 0)] = material;
+        const ContactReport edge = count_voxel_contacts(image);
+        EXPECT_EQ(edge.edge_contacts, 1U) << length << " " << i;
+        EXPECT_EQ(edge.vertex_contacts, 0U) << length << " " << i;
+        image.voxels[image.frame.offset(i + 1, 0, 0)] = kBackground;
+        image.voxels[image.frame.offset(i + 1, 0, 1)] = material;
+        const ContactReport vertex = count_voxel_contacts(image);
+        EXPECT_EQ(vertex.edge_contacts, 0U) << length << " " << i;
+        EXPECT_EQ(vertex.vertex_contacts, 1U) << length << " " << i;
+      }
+    }
+  }
+}
+
+TEST(VoxelContacts, TellsWhatEveryMaterialGained) {
+  LabelImage image = testing::noise_image(24, 0.5, 1);
+  std::vector<std::size_t> voxels = image.voxels_per_material();
+  const ContactReport report = remove_voxel_contacts(image, 1);
+  for (std::size_t m = 0; m < voxels.size(); ++m) {
+    voxels[m] += static_cast<std::size_t>(report.gained[m]);
+  }
+  EXPECT_EQ(voxels, image.voxels_per_material());
+}
+
 TEST(VoxelContacts, NoneIsLeftInSeededNoiseOfAnyDensity) {
   for (const double density : {0.1, 0.3, 0.6, 0.9, 1.0}) {
     for (const std::uint32_t seed : {1U, 2U}) {

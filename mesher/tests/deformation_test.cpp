@@ -139,7 +139,7 @@ struct Prepared {
         sources(extract_source_points(mesh, cells_of_vertices(mesh), sets)),
         targets(extract_target_points(image, Connectivity::no, sets)) {}
   [[nodiscard]] std::vector<SourceDisplacement> displacements(const DisplacementOptions& options) const {
-    return source_displacements({sources, targets, sets, image.frame}, mesh.points, options);
+    return SourceDisplacements({sources, targets, sets, image.frame}, options).at(mesh.points);
   }
   const LabelImage& image;
   MaterialMesh mesh;

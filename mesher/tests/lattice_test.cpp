@@ -161,6 +161,32 @@ TEST(RedGreen, RandomRefinementStaysConformingWithinTheTemplatesAngles) {
   }
 }
 
+TEST(RedGreen, ARefinerThatRemembersSplitsAsOneThatLooksAtAll) {
+  const LabelImage image = testing::ball_image(40, 1, 17);
+  Lattice kept = lattice_of(image, 4, 0.2);
+  Lattice anew = lattice_of(image, 4, 0.2);
+  RedGreenRefiner refiner(kept);
+  std::mt19937 random(4);
+  for (int round = 0; round < 12; ++round) {
+    // One tet and its neighbourhood down to the deepest level in the end, so that the closure has far to go.
+    std::vector<std::uint8_t> marked(kept.reds.size(), 0);
+    for (int n = 0; n < (round < 2 ? 1000 : 3); ++n) {
+      marked[random() % marked.size()] = 1;
+    }
+    marked[kept.reds.size() / 2] = marked.back() = 1;
+    EXPECT_EQ(refiner.refine(marked), refine_red_green(anew, marked));
+    ASSERT_EQ(kept.points, anew.points);
+    ASSERT_EQ(kept.split_below, anew.split_below);
+    ASSERT_EQ(kept.reds.size(), anew.reds.size());
+    for (std::size_t r = 0; r < kept.reds.size(); ++r) {
+      ASSERT_EQ(kept.reds[r].nodes, anew.reds[r].nodes);
+      ASSERT_EQ(kept.reds[r].level, anew.reds[r].level);
+      ASSERT_EQ(kept.reds[r].split, anew.reds[r].split);
+    }
+  }
+  EXPECT_GT(hull_area(kept, extract_tets(kept)), 0);  // conforming
+}
+
 TEST(LatticeFollower, AMeshThatFollowsIsTheMeshMadeAnew) {
   const LabelImage image = testing::ball_image(24, 1, 9);
   Lattice lattice = lattice_of(image, 6, 0.3);

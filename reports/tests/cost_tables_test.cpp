@@ -120,6 +120,23 @@ TEST(ScalingTable, WhatIsNotFlatIsMarkedAndAMissingSizeIsADash) {
   EXPECT_TRUE(scaling_table({line("a", "cbc3d", 100, 1)}, cases).rows.empty());
 }
 
+TEST(ScalingTable, CopiesSideBySideAreASeriesOfTheirOwn) {
+  std::vector<cases::Case> cases{phantom_case("one", 100), phantom_case("eight", 100),
+                                 phantom_case("fine", 200)};
+  cases[1].derive.repeat = {2, 2, 2};
+  const Table table = scaling_table(
+      {line("one", "cbc3d", 100, 1), line("eight", "cbc3d", 800, 16), line("fine", "cbc3d", 800, 8)}, cases);
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"1x", "8x", "spread (%), at most 20"}));
+  EXPECT_EQ(text(table, "ball side by side, cbc3d", "wall time (ns per voxel)", 0), "1,000.00");
+  EXPECT_EQ(text(table, "ball side by side, cbc3d", "wall time (ns per voxel)", 1), "2,000.00");
+  EXPECT_EQ(text(table, "ball, cbc3d", "wall time (ns per voxel)", 0), "1,000.00");
+  EXPECT_EQ(text(table, "ball, cbc3d", "wall time (ns per voxel)", 1), "1,000.00");
+  cases.pop_back();  // copies alone have no other resolution
+  EXPECT_EQ(text(scaling_table({line("one", "cbc3d", 100, 1), line("eight", "cbc3d", 800, 16)}, cases),
+                 "ball, cbc3d", "elements", 0),
+            "no row elements");
+}
+
 /// A job of three stages at a thread count: one that is halved by two threads, one with a serial half, a
 /// small serial one.
 Json staged(const std::string& mesher, int threads) {
