@@ -93,6 +93,7 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
            overrides.emplace_back([distance_mm](MeshImageOptions& o) {
              o.refine.max_distance_mm = distance_mm;
              o.improve.reach_mm = distance_mm;
+             o.stricter.reset();
            });
          },
          "every boundary voxel has an interface vertex within so many mm: the lattice is refined for it, the "
@@ -184,9 +185,16 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
                     "one takes less than 3 % away [6]",
                     [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; })
       ->check(CLI::Range(0, 20));
-  add_override<double>(app, overrides, "--deviation",
-                       "improvement: facets stay so near to the boundary, voxel diagonals [0.35]",
-                       [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; })
+  app.add_option_function<double>(
+         "--deviation",
+         [&overrides](const double& diagonals) {
+           overrides.emplace_back([diagonals](MeshImageOptions& o) {
+             o.improve.deviation_diagonals = diagonals;
+             o.stricter.reset();
+           });
+         },
+         "improvement: facets stay so near to the boundary, voxel diagonals [0.35]; where neither this nor "
+         "--max-distance is given and faults are left, all is done once more with 0.2 and 0.9 diagonals")
       ->check(CLI::Range(0.01, 2.0));
   add_override<double>(
       app, overrides, "--smoothness",

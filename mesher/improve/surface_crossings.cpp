@@ -366,6 +366,23 @@ std::vector<std::array<std::uint32_t, 2>> overfull_pairs(const MaterialMesh& mes
 
 }  // namespace
 
+std::size_t count_crossings_of_labels(const MaterialMesh& mesh, const std::vector<MaterialId>& label_of) {
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  std::vector<Facet> facets;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const TetId across = neighbours[t][n];
+      const bool parts =
+          across == kNoTet || (t < across && label_of[mesh.materials[t]] != label_of[mesh.materials[across]]);
+      if (parts) {
+        const auto& nodes = mesh.tets[t];
+        facets.push_back({nodes[kTetFace[n][0]], nodes[kTetFace[n][1]], nodes[kTetFace[n][2]]});
+      }
+    }
+  }
+  return crossing_facets(mesh.points, facets).size();
+}
+
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
                                const CrossingOptions& options) {
   std::vector<std::array<std::uint32_t, 2>> pairs;

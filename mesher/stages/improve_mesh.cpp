@@ -400,7 +400,7 @@ class Improver {
     with_points(target_.keep_distances ? hosted_.reach_mm : farthest_mm,
                 [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
     const bool may_mend = target_.places.is_near && !target_.keep_distances;
-    if (may_mend && (may_have_faults_ || has_lonely_points())) {
+    if (may_mend && (may_have_faults_ || has_lonely_points() || have_labels_crossings())) {
       timed("mending", [this] { mend(); });
     }
   }
@@ -416,6 +416,10 @@ class Improver {
             (mesh_.points[host] - hosted_.points[p].centre()).squared_norm() > limit_squared;
     }
     return any;
+  }
+
+  [[nodiscard]] bool have_labels_crossings() const {
+    return count_crossings_of_labels(mesh_, target_.places.label_of) > 0;
   }
 
   void mend() {
@@ -506,6 +510,12 @@ class Improver {
     report_.rounds = round_;
     report_.tets_after = mesh_.tets.size();
     report_.min_dihedral_after_deg = degrees(worst_sine_squared(mesh_));
+    if (!options_.only_bad && !target_.places.label_of.empty()) {
+      timed("check", [this] {
+        report_.crossings_left =
+            std::max(report_.crossings_left, count_crossings_of_labels(mesh_, target_.places.label_of));
+      });
+    }
   }
 
   MaterialMesh& mesh_;

@@ -71,7 +71,7 @@ struct ImproveReport {
   std::size_t boundary_points = 0;
   std::size_t uncovered_points = 0;  ///< without a surface vertex in reach in the end
   std::size_t tets_relabelled = 0;   ///< in the end: strays, and what could not be drawn apart
-  std::size_t crossings_left = 0;    ///< pairs of outer facets that cut each other
+  std::size_t crossings_left = 0;    ///< pairs of facets between labels, or outer ones, that cut each other
   std::size_t faults_left = 0;       ///< places where a surface is not as it should be, see MendReport
   /// Seconds by part: hosts, untangling, fitting, volumes, decimation, repair, crossings, mending.
   std::vector<std::pair<std::string, double>> part_seconds;
