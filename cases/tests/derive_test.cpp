@@ -32,6 +32,15 @@ void clear(LabelImage& image, const Index3& voxel) {
   image.voxels[image.frame.offset(voxel[0], voxel[1], voxel[2])] = kBackground;
 }
 
+/// A case of the image, which is written to a data folder.
+Case file_case(const LabelImage& image, const std::filesystem::path& folder) {
+  write_label_image(image, folder / "one.nrrd");
+  Case one;
+  one.image_file = "one.nrrd";
+  one.image_sha256 = sha256_of_file(folder / "one.nrrd");
+  return one;
+}
+
 TEST(FillHoles, TakesTheLabelOfMostFacesAround) {
   LabelImage image = two_blocks();
   clear(image, {4, 4, 4});  // within label 1
@@ -88,10 +97,7 @@ TEST(ResolveImage, DerivedImagesOfOneSourceAreTold) {
   const test::Folder data("data"), folder("cache");
   LabelImage image = two_blocks();
   clear(image, {4, 4, 4});
-  write_label_image(image, data.path() / "one.nrrd");
-  Case one;
-  one.image_file = "one.nrrd";
-  one.image_sha256 = sha256_of_file(data.path() / "one.nrrd");
+  Case one = file_case(image, data.path());
   one.derive.repeat = {2, 1, 1};
   const auto twice = resolve_image(one, {data.path()}, folder.path());
   EXPECT_EQ(read_label_image(twice.path).voxels, repeated(image, {2, 1, 1}).voxels);
@@ -105,10 +111,7 @@ TEST(ResolveImage, DerivedImageIsWrittenOnceAndItsSourceChecked) {
   const auto cache = folder.path() / "images";
   LabelImage image = two_blocks();
   clear(image, {4, 4, 4});
-  write_label_image(image, data.path() / "one.nrrd");
-  Case one;
-  one.image_file = "one.nrrd";
-  one.image_sha256 = sha256_of_file(data.path() / "one.nrrd");
+  Case one = file_case(image, data.path());
   one.derive.fill_holes = true;
   const auto found = resolve_image(one, {data.path()}, cache);
   ASSERT_EQ(found.skipped_reason, "");
