@@ -96,7 +96,8 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
            });
          },
          "every boundary voxel has an interface vertex within so many mm: the lattice is refined for it, the "
-         "improvement keeps it; 0: the lattice is not, and the improvement keeps its default [quality: 1.06 "
+         "improvement keeps it; 0: the lattice is not, and the improvement keeps its default [quality: 1.04 "
+         "and 1.07 "
          "voxel diagonals, paper: off]")
       ->check(CLI::NonNegativeNumber);
   app.add_flag_callback(
@@ -185,7 +186,7 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
                     [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; })
       ->check(CLI::Range(0, 20));
   add_override<double>(app, overrides, "--deviation",
-                       "improvement: facets stay so near to the boundary, voxel diagonals [0.35]",
+                       "improvement: facets stay so near to the boundary, voxel diagonals [0.3]",
                        [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; })
       ->check(CLI::Range(0.01, 2.0));
   add_override<double>(

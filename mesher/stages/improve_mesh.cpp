@@ -259,10 +259,10 @@ class Improver {
   static constexpr double kLargestLack = 0.004;      // of a volume, after which no more are needed
   static constexpr double kSmallChanges = 60;        // volumes of so many largest changes do not count
   static constexpr double kFewerShare = 0.97;        // a round of decimation that leaves more is the last
-  static constexpr int kLastRepairs = 4;
+  static constexpr int kLastRepairs = 8;
   static constexpr int kFarRepair = 4;  // the round of a repair from which on all its leeway is given
   static constexpr double kFarthestReach =
-      1.07;                               // of a vertex, in the target's scale, where nothing else helps
+      1.08;                               // of a vertex, in the target's scale, where nothing else helps
   static constexpr double kLimit = 1.09;  // of distances in the end, likewise
 
   /// Vertices to the boundary, tets into shape.

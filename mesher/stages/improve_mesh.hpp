@@ -18,13 +18,13 @@
 
 namespace cbc3d {
 
-inline constexpr double kReachDiagonals = 1.06;  ///< where a surface vertex is to be, by default
+inline constexpr double kReachDiagonals = 1.07;  ///< where a surface vertex is to be, by default
 
 struct ImproveOptions {
   bool enabled = false;
   double min_dihedral_deg = 20;  ///< goal: no dihedral angle below this, none above 180 degrees minus it
   double reach_mm = 0;           ///< every boundary voxel keeps a surface vertex so near; 0: kReachDiagonals
-  double deviation_diagonals = 0.35;  ///< facets stay so near to the boundary, voxel diagonals
+  double deviation_diagonals = 0.3;  ///< facets stay so near to the boundary, voxel diagonals
   double surface_weight =
       1000;  ///< pull to the boundary against the tets' shape, distances in voxel diagonals
   /// In [0,1]: how much of the pull to the boundary goes to smooth surfaces, see RelaxOptions; 0: none.
