@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesher/improve/tet_shape.hpp"
+#include "mesher/improve/volume_shares.hpp"
 
 namespace cbc3d {
 namespace {
@@ -268,50 +269,13 @@ class EdgeCollapser {
   /// thin parts are worn away otherwise, whose surfaces stay near the boundary all the same.
   bool keeps_volumes(VertexId u, VertexId v, const Vec3& to, bool both_move) {
     shares_.clear();
-    add_gains(patch_.facets, u, kNoVertex, to);
-    add_volumes(patch_.star, kNoVertex);
+    shares_.add_gains(mesh_, patch_.facets, {u, kNoVertex}, to);
+    shares_.add_volumes(mesh_, patch_.star, kNoVertex);
     if (both_move) {
-      add_gains(patch_.facets_other, v, u, to);
-      add_volumes(patch_.star_other, u);
+      shares_.add_gains(mesh_, patch_.facets_other, {v, u}, to);
+      shares_.add_volumes(mesh_, patch_.star_other, u);
     }
-    return std::all_of(shares_.begin(), shares_.end(), [&](const VolumeShare& share) {
-      return share.material == kBackground || share.gain >= -options_.volume_share * share.volume;
-    });
-  }
-
-  /// What a material has in a star, and what it gains, both times six.
-  struct VolumeShare {
-    MaterialId material;
-    double volume, gain;
-  };
-
-  VolumeShare& share_of(MaterialId material) {
-    const auto found = std::find_if(shares_.begin(), shares_.end(),
-                                    [&](const VolumeShare& share) { return share.material == material; });
-    return found != shares_.end() ? *found : shares_.emplace_back(VolumeShare{material, 0, 0});
-  }
-
-  /// Seen from where the facets at v will meet, the volumes under them vanish; those with `known` are left
-  /// out.
-  void add_gains(const std::vector<FacetAt>& facets, VertexId v, VertexId known, const Vec3& to) {
-    for (const FacetAt& f : facets) {
-      if (f.first != known && f.second != known) {
-        const Vec3 normal = (mesh_.point(f.first) - to).cross(mesh_.point(f.second) - to);
-        const double volume = normal.dot(mesh_.point(v) - to);
-        share_of(f.inner).gain -= volume;
-        share_of(f.outer).gain += volume;
-      }
-    }
-  }
-
-  void add_volumes(std::span<const TetId> star, VertexId known) {
-    for (const TetId t : star) {
-      if (!mesh_.has_node(t, known)) {
-        const auto& n = mesh_.nodes(t);
-        share_of(mesh_.material(t)).volume +=
-            six_volumes(mesh_.point(n[0]), mesh_.point(n[1]), mesh_.point(n[2]), mesh_.point(n[3]));
-      }
-    }
+    return shares_.largest_loss() <= options_.volume_share;
   }
 
   /// True when a facet that stays turns too far while its vertex goes from one place to another; those with
@@ -591,7 +555,7 @@ class EdgeCollapser {
   std::vector<std::pair<double, VertexId>> targets_;
   std::vector<VertexId> on_edge_, hosts_;
   std::vector<std::array<MaterialId, 2>> pairs_;
-  std::vector<VolumeShare> shares_;
+  VolumeShares shares_;
   std::array<VertexId, 2> merging_{};
 };
 

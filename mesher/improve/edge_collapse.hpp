@@ -14,7 +14,7 @@ struct CollapseOptions {
   bool only_bad = false;    ///< only vertices of tets below the threshold, where that lifts the worst
   bool graded = false;      ///< where inner vertices vanish new edges keep to Patch::longest_mm
   bool place_anew = false;  ///< where no neighbour's place will do, one between the two is looked for
-  double volume_share = 1;  ///< of what a material has round a vertex of its surface, gained or lost at most
+  double volume_share = 1;  ///< of what a material has round a vertex of its surface, lost at most
 };
 
 /// One pass over all vertices in order: each is drawn onto the neighbour that leaves the best worst angle,

@@ -18,7 +18,26 @@ constexpr double kLeastGap = 1e-6;  // between facets at an edge, radians
 struct OuterSurface {
   std::vector<Facet> facets;  // counter-clockwise seen from outside
   std::vector<Vec3> normals;  // of vertices, sum of their facets' area vectors
+  std::vector<Facet> inner;   // between materials, those at vertices of the outer surface
 };
+
+/// What the outer surface may pass through where it is folded over about a vertex.
+void add_inner_facets(const MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
+                      OuterSurface& surface) {
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const TetId other = neighbours[t][n];
+      if (other != kNoTet && mesh.materials[t] > mesh.materials[other]) {
+        const auto& nodes = mesh.tets[t];
+        const Facet f = {nodes[kTetFace[n][0]], nodes[kTetFace[n][1]], nodes[kTetFace[n][2]]};
+        if (std::any_of(f.begin(), f.end(),
+                        [&](VertexId v) { return surface.normals[v].squared_norm() > 0; })) {
+          surface.inner.push_back(f);
+        }
+      }
+    }
+  }
+}
 
 OuterSurface outer_surface(const MaterialMesh& mesh) {
   OuterSurface surface;
@@ -38,6 +57,7 @@ OuterSurface outer_surface(const MaterialMesh& mesh) {
       }
     }
   }
+  add_inner_facets(mesh, neighbours, surface);
   return surface;
 }
 
@@ -389,7 +409,9 @@ std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
   Retreat retreat(mesh, hosted, options);
   for (int round = 0;; ++round) {
     const OuterSurface surface = outer_surface(mesh);
-    pairs = crossing_facets(mesh.points, surface.facets);
+    std::vector<Facet> facets = surface.facets;
+    facets.insert(facets.end(), surface.inner.begin(), surface.inner.end());
+    pairs = crossing_facets(mesh.points, facets);
     const auto overfull = overfull_pairs(mesh, retreat.around(), surface);
     pairs.insert(pairs.end(), overfull.begin(), overfull.end());
     if (pairs.empty() || round == options.rounds) {
@@ -398,13 +420,16 @@ std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
     std::vector<VertexId> vertices;
     for (const auto& pair : pairs) {
       for (const std::uint32_t f : pair) {
-        vertices.insert(vertices.end(), surface.facets[f].begin(), surface.facets[f].end());
+        vertices.insert(vertices.end(), facets[f].begin(), facets[f].end());
       }
     }
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     std::size_t moved = 0;
     for (const VertexId v : vertices) {
+      if (surface.normals[v].squared_norm() == 0) {
+        continue;  // inside
+      }
       moved += retreat.move(v, -1 * surface.normals[v].normalized()) ? 1 : 0;
     }
     if (moved == 0) {

@@ -262,7 +262,7 @@ class Improver {
   static constexpr int kLastRepairs = 8;
   static constexpr int kFarRepair = 4;  // the round of a repair from which on all its leeway is given
   static constexpr double kFarthestReach =
-      1.07;                               // of a vertex, in the target's scale, where nothing else helps
+      1.08;                               // of a vertex, in the target's scale, where nothing else helps
   static constexpr double kLimit = 1.09;  // of distances in the end, likewise
 
   /// Vertices to the boundary, tets into shape.
