@@ -331,7 +331,6 @@ class EdgeCollapser {
     }
     std::sort(targets_.begin(), targets_.end());
     return std::any_of(targets_.begin(), targets_.end(), [&](const auto& target) {
-      load_other(target.second);
       return on_facets_ ? try_merge_on_facets(u, target.second) : try_merge_inside(u, target.second);
     });
   }
@@ -345,10 +344,16 @@ class EdgeCollapser {
 
   bool try_merge_inside(VertexId u, VertexId v) {
     const Vec3 middle = 0.5 * (mesh_.point(u) + mesh_.point(v));
-    return merged_quality(u, {v, middle}) > floor_ && keeps_shape(u, v) && merge(u, {v, middle});
+    if (quality_at(patch_.star, u, v, {v, middle}) <= floor_) {
+      return false;
+    }
+    load_other(v);
+    return quality_at(patch_.star_other, v, u, {v, middle}) > floor_ && keeps_shape(u, v) &&
+           merge(u, {v, middle});
   }
 
   bool try_merge_on_facets(VertexId u, VertexId v) {
+    load_other(v);
     const auto ends =
         std::count_if(near_v_.begin(), near_v_.end(), [](const auto& s) { return s.facets > 2; });
     if (ends != (on_curve_ ? 2 : 0)) {

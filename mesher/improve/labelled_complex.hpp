@@ -25,7 +25,8 @@ class LabelledComplex {
   [[nodiscard]] MaterialId across(TetId t, std::size_t n) const {
     return neighbours_[t][n] == kNoTet ? kBackground : mesh_.materials[neighbours_[t][n]];
   }
-  /// True when the face parts two labels, or a label from the outside, and this is the side it is counted from.
+  /// True when the face parts two labels, or a label from the outside, and this is the side it is counted
+  /// from.
   [[nodiscard]] bool is_facet(TetId t, std::size_t n) const {
     const MaterialId other = across(t, n);
     return material(t) != kBackground &&

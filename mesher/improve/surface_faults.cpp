@@ -220,9 +220,8 @@ void FaultMeter::count_cuts_and_folds(const std::vector<VertexId>& vertices, Sur
     box.add(f.low);
     box.add(f.high);
   }
-  std::copy_if(facets_.begin(), facets_.end(), std::back_inserter(facets), [&](const Facet& f) {
-    return boxes_meet(f.low, f.high, box.low, box.high) && !is_active(f);
-  });
+  std::copy_if(facets_.begin(), facets_.end(), std::back_inserter(facets),
+               [&](const Facet& f) { return boxes_meet(f.low, f.high, box.low, box.high) && !is_active(f); });
   const std::vector<Vec3>& points = complex_.mesh().points;
   for (std::size_t i = 0; i < active; ++i) {
     const Facet& f = facets[i];
@@ -358,8 +357,7 @@ std::vector<std::array<std::uint32_t, 2>> folded_facets(const std::vector<Vec3>&
 }
 
 /// The vertices of each pair.
-void add_pairs(const Facets& facets, const std::vector<std::array<std::uint32_t, 2>>& pairs,
-               Seeds& faults) {
+void add_pairs(const Facets& facets, const std::vector<std::array<std::uint32_t, 2>>& pairs, Seeds& faults) {
   for (const auto& [f, g] : pairs) {
     std::vector<VertexId> seeds(facets.nodes[f].begin(), facets.nodes[f].end());
     seeds.insert(seeds.end(), facets.nodes[g].begin(), facets.nodes[g].end());
