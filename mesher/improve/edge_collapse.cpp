@@ -359,7 +359,9 @@ class EdgeCollapser {
     if (ends != (on_curve_ ? 2 : 0)) {
       return false;
     }
-    find_stranded_points(u, v);
+    if (!find_stranded_points(u, v)) {
+      return false;
+    }
     merging_ = {u, v};
     for (const double share : {0.5, 1.0, 0.0}) {
       Placed to{v, mesh_.point(u) + share * (mesh_.point(v) - mesh_.point(u))};
@@ -373,8 +375,8 @@ class EdgeCollapser {
     return false;
   }
 
-  /// The points of u and v that are out of reach of the vertices around.
-  void find_stranded_points(VertexId u, VertexId v) {
+  /// The points of u and v that are out of reach of the vertices around; false where no place is near all.
+  bool find_stranded_points(VertexId u, VertexId v) {
     hosts_.clear();
     for (const auto* near : {&near_u_, &near_v_}) {
       for (const SurfaceNeighbour& s : *near) {
@@ -384,7 +386,9 @@ class EdgeCollapser {
         }
       }
     }
-    patch_.cover.find_stranded(u, v, hosts_, mesh_, patch_.sets);
+    if (!patch_.cover.find_stranded(u, v, hosts_, mesh_, patch_.sets)) {
+      return false;
+    }
     pairs_.clear();
     for (const FacetAt& f : patch_.facets) {
       const std::array<MaterialId, 2> pair = {f.inner, f.outer};
@@ -392,6 +396,7 @@ class EdgeCollapser {
         pairs_.push_back(pair);
       }
     }
+    return true;
   }
 
   /// Projects a place by turns into reach of the stranded points and onto the boundaries; false when it does

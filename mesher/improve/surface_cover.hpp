@@ -22,7 +22,7 @@ class SurfaceCover {
   /// `far_reach_mm`: points with a reach of their own have it there, 0 the others; may be empty.
   SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm,
                std::span<const float> far_reach_mm = {})
-      : points_(&points), reach_squared_(reach_mm * reach_mm), far_reach_mm_(far_reach_mm) {}
+      : points_(&points), reach_mm_(reach_mm), far_reach_mm_(far_reach_mm) {}
 
   /// Makes room for vertices that have no points yet.
   void resize(std::size_t vertices) { first_.resize(vertices, kNoPoint); }
@@ -37,19 +37,18 @@ class SurfaceCover {
   void commit(VertexId v);
 
   /// Of two vertices that are to become one: finds the points that none of `others` (as in can_release) is
-  /// host of, which the one vertex has to be near. Remembered for commit_merge.
-  void find_stranded(VertexId u, VertexId v, std::span<const VertexId> others, const TetComplex& mesh,
+  /// host of, which the one vertex has to be near; false where no place is near them all. Remembered for
+  /// commit_merge.
+  bool find_stranded(VertexId u, VertexId v, std::span<const VertexId> others, const TetComplex& mesh,
                      const std::vector<MaterialSet>& sets);
   [[nodiscard]] const std::vector<PointId>& stranded() const { return stranded_; }
   /// What the last find_stranded found: v takes the stranded points, `others` the rest.
   void commit_merge(VertexId u, VertexId v);
   /// The largest distance at which a point may have its host.
-  [[nodiscard]] double reach_squared(PointId point) const {
-    if (far_reach_mm_.empty() || far_reach_mm_[point] == 0) {
-      return reach_squared_;
-    }
-    return static_cast<double>(far_reach_mm_[point]) * far_reach_mm_[point];
+  [[nodiscard]] double reach_mm(PointId point) const {
+    return far_reach_mm_.empty() || far_reach_mm_[point] == 0 ? reach_mm_ : far_reach_mm_[point];
   }
+  [[nodiscard]] double reach_squared(PointId point) const { return reach_mm(point) * reach_mm(point); }
   [[nodiscard]] Vec3 centre(PointId point) const { return (*points_)[point].centre(); }
 
   /// Calls f(point) for the points of a vertex.
@@ -70,7 +69,7 @@ class SurfaceCover {
   }
 
   const std::vector<InterfacePoint>* points_;
-  double reach_squared_;
+  double reach_mm_;
   std::span<const float> far_reach_mm_;
   std::vector<PointId> first_;  // into links_, one a vertex
   std::vector<Link> links_;
