@@ -253,12 +253,11 @@ class Improver {
   static constexpr double kMarginDeg = 1e-3;  // rounding when the mesh is written must not undo the goal
   static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
   static constexpr double kLongestGrowth = 5;
-  static constexpr double kCollapseLeewayDeg = 7.5;  // collapses leave so much to what follows them
-  static constexpr double kVolumeShare = 0.05;       // that a collapse may take from a material round it
-  static constexpr int kSettlings = 10;              // at most
-  static constexpr double kLargestLack = 0.004;      // of a volume, after which no more are needed
-  static constexpr double kSmallChanges = 60;        // volumes of so many largest changes do not count
-  static constexpr double kFewerShare = 0.97;        // a round of decimation that leaves more is the last
+  static constexpr double kVolumeShare = 0.05;   // that a collapse may take from a material round it
+  static constexpr int kSettlings = 10;          // at most
+  static constexpr double kLargestLack = 0.004;  // of a volume, after which no more are needed
+  static constexpr double kSmallChanges = 60;    // volumes of so many largest changes do not count
+  static constexpr double kFewerShare = 0.97;    // a round of decimation that leaves more is the last
   static constexpr int kLastRepairs = 8;
   static constexpr int kFarRepair = 4;  // the round of a repair from which on all its leeway is given
   static constexpr double kFarthestReach =
@@ -315,7 +314,8 @@ class Improver {
   }
 
   [[nodiscard]] double collapse_deg() const {
-    return std::max(options_.min_dihedral_deg - kCollapseLeewayDeg, 0.5 * options_.min_dihedral_deg);
+    return std::max(options_.min_dihedral_deg - options_.collapse_leeway_deg,
+                    0.5 * options_.min_dihedral_deg);
   }
 
   void decimate() {

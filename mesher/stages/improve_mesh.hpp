@@ -35,6 +35,8 @@ struct ImproveOptions {
   /// No inner vertex vanishes for edges longer than those of the nearest interface and this times the way to
   /// there, about (see graded_sizes); interfaces thin out as ever. Below 0: no limit.
   double gradation = -1;
+  /// Collapses may leave angles so far below the goal, though not below half of it, to what follows them.
+  double collapse_leeway_deg = 7.5;
   int decimation_rounds = 6;  ///< at most, see kFewerShare; 0: as many tets as before
   int repair_rounds = 12;     ///< at most; they end when the goal is reached
   int untangle_rounds = 3;    ///< at most, before all else, while a tet is flat or inside out

@@ -254,6 +254,7 @@ MeshImageOptions with_tolerance(MeshImageOptions options, const Tolerance& toler
   options.refine.max_distance_mm = tolerance.max_distance_mm;
   options.improve.reach_mm = tolerance.max_distance_mm;
   options.improve.deviation_diagonals = tolerance.deviation_diagonals;
+  options.improve.collapse_leeway_deg = tolerance.collapse_leeway_deg;
   return options;
 }
 

@@ -20,10 +20,11 @@
 
 namespace cbc3d {
 
-/// How near the surfaces keep to the image's boundary.
+/// What the thinning out is allowed.
 struct Tolerance {
   double max_distance_mm;      ///< RefineOptions::max_distance_mm and ImproveOptions::reach_mm
   double deviation_diagonals;  ///< ImproveOptions::deviation_diagonals
+  double collapse_leeway_deg;  ///< ImproveOptions::collapse_leeway_deg
 };
 
 struct MeshImageOptions {

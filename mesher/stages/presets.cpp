@@ -49,7 +49,7 @@ MeshImageOptions quality_options(double diagonal_mm) {
   options.deform.displacement.pair_distance = 0.8;
   options.improve.enabled = true;
   options.improve.reach_mm = options.refine.max_distance_mm;
-  options.stricter = Tolerance{0.9 * diagonal_mm, 0.2};
+  options.stricter = Tolerance{0.9 * diagonal_mm, 0.2, 0};
   return options;
 }
 
