@@ -18,7 +18,7 @@ struct PresetDefaults {
 };
 
 constexpr PresetDefaults kQuality{
-    "0", "true (always)", "0.01", "0.9 voxel diagonals", "true (always)", "0", "voxel-faces", "0.8", "20"};
+    "0", "true (always)", "0.01", "1.06 voxel diagonals", "true (always)", "0", "voxel-faces", "0.8", "20"};
 constexpr PresetDefaults kPaper{"1e-4", "false", "0.95", "0", "false", "5", "voxel-centre", "0.5", "5"};
 
 std::vector<ParameterSpec> image_and_lattice_parameters(const PresetDefaults& preset) {
@@ -66,8 +66,9 @@ std::vector<ParameterSpec> deformation_parameters(const PresetDefaults& preset) 
 std::vector<ParameterSpec> improvement_parameters() {
   return {
       {"no-improve", "false", kSwitch, "stop before the improvement"},
-      {"decimation-rounds", "3", "", "rounds that thin the mesh out; 0: as many tets as before"},
-      {"deviation", "0.2", "voxel diagonals", "facets stay so near to the boundary"},
+      {"decimation-rounds", "6", "",
+       "rounds that thin the mesh out, as long as one takes 3 % away; 0: as many tets as before"},
+      {"deviation", "0.35", "voxel diagonals", "facets stay so near to the boundary"},
       {"smoothness", "0", "", "share of the pull to the boundary that goes to smooth surfaces"},
       {"smoothness-cap", "deviation", "mm", "smoothness moves no vertex farther from the boundary"},
       {"gradation", "none", "", "growth of inner edges by the distance to the surfaces"},

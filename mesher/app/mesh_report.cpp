@@ -145,7 +145,7 @@ nlohmann::json deformation_json(const DeformReport& deform) {
           {"iterations", iterations}};
 }
 
-nlohmann::json improvement_json(const ImproveReport& improve) {
+nlohmann::json improvement_json(const ImproveReport& improve, bool was_stricter) {
   nlohmann::json parts = nlohmann::json::object();
   for (const auto& [name, seconds] : improve.part_seconds) {
     parts[name] = seconds;
@@ -159,6 +159,7 @@ nlohmann::json improvement_json(const ImproveReport& improve) {
           {"uncovered_points", improve.uncovered_points},
           {"crossings_left", improve.crossings_left},
           {"surface_faults_left", improve.faults_left},
+          {"done_again_stricter", was_stricter},
           {"seconds", parts}};
 }
 
@@ -204,7 +205,8 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"materials", fidelity_json(report)},
           {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
           {"deformation", deformation_json(report.deform)},
-          {"improvement", run.options.improve.enabled ? improvement_json(report.improve) : nlohmann::json()},
+          {"improvement", run.options.improve.enabled ? improvement_json(report.improve, report.was_stricter)
+                                                      : nlohmann::json()},
           {"warnings", report.warnings},
           {"seconds", {{"total", report.seconds}, {"cpu", report.cpu_seconds}, {"stages", stages}}},
           {"peak_rss_bytes", process_peak_rss_bytes()}};

@@ -93,10 +93,11 @@ void add_lattice_options(CLI::App& app, Overrides& overrides) {
            overrides.emplace_back([distance_mm](MeshImageOptions& o) {
              o.refine.max_distance_mm = distance_mm;
              o.improve.reach_mm = distance_mm;
+             o.stricter.reset();
            });
          },
          "every boundary voxel has an interface vertex within so many mm: the lattice is refined for it, the "
-         "improvement keeps it; 0: the lattice is not, and the improvement keeps its default [quality: 0.9 "
+         "improvement keeps it; 0: the lattice is not, and the improvement keeps its default [quality: 1.06 "
          "voxel diagonals, paper: off]")
       ->check(CLI::NonNegativeNumber);
   app.add_flag_callback(
@@ -180,12 +181,20 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
       [&overrides] { overrides.emplace_back([](MeshImageOptions& o) { o.improve.enabled = false; }); },
       "preset quality: stop before the improvement");
   add_override<int>(app, overrides, "--decimation-rounds",
-                    "improvement: rounds that thin the mesh out; 0: as many tets as before [3]",
+                    "improvement: rounds that thin the mesh out; 0: as many tets as before; they end when "
+                    "one takes less than 3 % away [6]",
                     [](MeshImageOptions& o) -> int& { return o.improve.decimation_rounds; })
       ->check(CLI::Range(0, 20));
-  add_override<double>(app, overrides, "--deviation",
-                       "improvement: facets stay so near to the boundary, voxel diagonals [0.2]",
-                       [](MeshImageOptions& o) -> double& { return o.improve.deviation_diagonals; })
+  app.add_option_function<double>(
+         "--deviation",
+         [&overrides](const double& diagonals) {
+           overrides.emplace_back([diagonals](MeshImageOptions& o) {
+             o.improve.deviation_diagonals = diagonals;
+             o.stricter.reset();
+           });
+         },
+         "improvement: facets stay so near to the boundary, voxel diagonals [0.35]; where neither this nor "
+         "--max-distance is given and faults are left, all is done once more with 0.2 and 0.9 diagonals")
       ->check(CLI::Range(0.01, 2.0));
   add_override<double>(
       app, overrides, "--smoothness",

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kShared = 0xFFFFFFFEU;
 constexpr VertexId kNew = 0x80000000U;
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
-constexpr std::size_t kFewTets = 8000;  // from so many on there are two patches, for two threads
+constexpr std::size_t kFewTets = 2500;  // from so many on there are two patches, for two threads
 
 /// Three axes at right angles, others in every round.
 Mat3 axes_of_round(int round) {

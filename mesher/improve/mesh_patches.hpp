@@ -17,7 +17,7 @@ struct PatchRules {
   Guards guards;
   const std::vector<InterfacePoint>& points;
   double reach_mm = 0;                        ///< of a host
-  std::size_t patch_tets = 15000;             ///< tets of a patch, about
+  std::size_t patch_tets = 30000;             ///< tets of a patch, about
   std::span<const float> far_reach_mm = {};   ///< a point's own reach where above 0; empty: none has one
   std::span<const std::uint8_t> locked = {};  ///< vertices that must stay; empty: none
   std::span<const double> longest_mm = {};    ///< Patch::longest_mm of every vertex; empty: no limit

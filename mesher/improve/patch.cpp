@@ -15,9 +15,15 @@ double Patch::facet_deviation(const Vec3& p, const Vec3& q, const Vec3& r, Mater
 
 void Patch::renew_sets(std::span<const FreshTet> fresh_tets) {
   around_other.clear();
+  // A vertex within one material stays there while the tets put in are of it.
+  const MaterialId first = fresh_tets.empty() ? kBackground : fresh_tets.front().material;
+  const bool uniform = std::all_of(fresh_tets.begin(), fresh_tets.end(),
+                                   [&](const FreshTet& tet) { return tet.material == first; });
+  const auto is_within = [&](VertexId v) { return uniform && sets[v].size == 1 && sets[v].ids[0] == first; };
   for (const FreshTet& tet : fresh_tets) {
     for (const VertexId v : tet.nodes) {
-      if (!mesh.locked(v) && std::find(around_other.begin(), around_other.end(), v) == around_other.end()) {
+      if (!mesh.locked(v) && !is_within(v) &&
+          std::find(around_other.begin(), around_other.end(), v) == around_other.end()) {
         around_other.push_back(v);
       }
     }

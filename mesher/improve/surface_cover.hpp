@@ -22,7 +22,7 @@ class SurfaceCover {
   /// `far_reach_mm`: points with a reach of their own have it there, 0 the others; may be empty.
   SurfaceCover(const std::vector<InterfacePoint>& points, double reach_mm,
                std::span<const float> far_reach_mm = {})
-      : points_(&points), reach_squared_(reach_mm * reach_mm), far_reach_mm_(far_reach_mm) {}
+      : points_(&points), reach_mm_(reach_mm), far_reach_mm_(far_reach_mm) {}
 
   /// Makes room for vertices that have no points yet.
   void resize(std::size_t vertices) { first_.resize(vertices, kNoPoint); }
@@ -35,6 +35,21 @@ class SurfaceCover {
                    const std::vector<MaterialSet>& sets);
   /// Carries out what the last successful can_release found.
   void commit(VertexId v);
+
+  /// Of two vertices that are to become one: finds the points that none of `others` (as in can_release) is
+  /// host of, which the one vertex has to be near; false where no place is near them all. Remembered for
+  /// commit_merge.
+  bool find_stranded(VertexId u, VertexId v, std::span<const VertexId> others, const TetComplex& mesh,
+                     const std::vector<MaterialSet>& sets);
+  [[nodiscard]] const std::vector<PointId>& stranded() const { return stranded_; }
+  /// What the last find_stranded found: v takes the stranded points, `others` the rest.
+  void commit_merge(VertexId u, VertexId v);
+  /// The largest distance at which a point may have its host.
+  [[nodiscard]] double reach_mm(PointId point) const {
+    return far_reach_mm_.empty() || far_reach_mm_[point] == 0 ? reach_mm_ : far_reach_mm_[point];
+  }
+  [[nodiscard]] double reach_squared(PointId point) const { return reach_mm(point) * reach_mm(point); }
+  [[nodiscard]] Vec3 centre(PointId point) const { return (*points_)[point].centre(); }
 
   /// Calls f(point) for the points of a vertex.
   template <typename F>
@@ -50,18 +65,15 @@ class SurfaceCover {
     PointId next;
   };
   [[nodiscard]] bool reaches(const Vec3& at, PointId point) const {
-    const double squared = ((*points_)[point].centre() - at).squared_norm();
-    if (far_reach_mm_.empty() || far_reach_mm_[point] == 0) {
-      return squared <= reach_squared_;
-    }
-    return squared <= static_cast<double>(far_reach_mm_[point]) * far_reach_mm_[point];
+    return (centre(point) - at).squared_norm() <= reach_squared(point);
   }
 
   const std::vector<InterfacePoint>* points_;
-  double reach_squared_;
+  double reach_mm_;
   std::span<const float> far_reach_mm_;
   std::vector<PointId> first_;  // into links_, one a vertex
   std::vector<Link> links_;
+  std::vector<PointId> stranded_;
   std::vector<VertexId> new_hosts_;  // of the links of the released vertex, in order; kNoVertex: stays
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "mesher/improve/mesh_star.hpp"
@@ -12,10 +13,31 @@ namespace {
 
 using Facet = std::array<VertexId, 3>;
 
+constexpr double kLeastGap = 1e-6;  // between facets at an edge, radians
+
 struct OuterSurface {
   std::vector<Facet> facets;  // counter-clockwise seen from outside
   std::vector<Vec3> normals;  // of vertices, sum of their facets' area vectors
+  std::vector<Facet> inner;   // between materials, those at vertices of the outer surface
 };
+
+/// What the outer surface may pass through where it is folded over about a vertex.
+void add_inner_facets(const MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
+                      OuterSurface& surface) {
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const TetId other = neighbours[t][n];
+      if (other != kNoTet && mesh.materials[t] > mesh.materials[other]) {
+        const auto& nodes = mesh.tets[t];
+        const Facet f = {nodes[kTetFace[n][0]], nodes[kTetFace[n][1]], nodes[kTetFace[n][2]]};
+        if (std::any_of(f.begin(), f.end(),
+                        [&](VertexId v) { return surface.normals[v].squared_norm() > 0; })) {
+          surface.inner.push_back(f);
+        }
+      }
+    }
+  }
+}
 
 OuterSurface outer_surface(const MaterialMesh& mesh) {
   OuterSurface surface;
@@ -35,6 +57,7 @@ OuterSurface outer_surface(const MaterialMesh& mesh) {
       }
     }
   }
+  add_inner_facets(mesh, neighbours, surface);
   return surface;
 }
 
@@ -233,6 +256,8 @@ class Retreat {
         options_(options),
         around_(tets_of_vertices(mesh.tets, mesh.points.size())) {}
 
+  [[nodiscard]] const VertexTets& around() const { return around_; }
+
   bool move(VertexId v, const Vec3& inwards) {
     const Vec3 from = mesh_.points[v];
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
@@ -301,26 +326,110 @@ bool facets_fold(const std::vector<Vec3>& points, const Facet& f, VertexId behin
   return false;
 }
 
+namespace {
+
+/// The dihedral angles of the tets at an edge, together.
+double angle_round(const MaterialMesh& mesh, const VertexTets& around, VertexId a, VertexId b) {
+  const Vec3 along = (mesh.points[b] - mesh.points[a]).normalized();
+  double sum = 0;
+  for (const TetId t : star_of(around, a)) {
+    const auto& nodes = mesh.tets[t];
+    if (std::find(nodes.begin(), nodes.end(), b) == nodes.end()) {
+      continue;
+    }
+    std::array<Vec3, 2> out{};
+    std::size_t count = 0;
+    for (const VertexId v : nodes) {
+      if (v != a && v != b) {
+        const Vec3 to = mesh.points[v] - mesh.points[a];
+        out[count++] = to - along.dot(to) * along;
+      }
+    }
+    sum += std::atan2(out[0].cross(out[1]).norm(), out[0].dot(out[1]));
+  }
+  return sum;
+}
+
+/// Pairs of facets with an edge in common round which the tets fill more than a full turn: a gap turned
+/// inside out.
+std::vector<std::array<std::uint32_t, 2>> overfull_pairs(const MaterialMesh& mesh, const VertexTets& around,
+                                                         const OuterSurface& surface) {
+  struct Side {
+    std::array<VertexId, 2> ends;
+    std::uint32_t facet;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * surface.facets.size());
+  for (std::uint32_t f = 0; f < surface.facets.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(surface.facets[f][i], surface.facets[f][(i + 1) % 3]);
+      sides.push_back({{low, high}, f});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.ends != b.ends ? a.ends < b.ends : a.facet < b.facet;
+  });
+  const auto normal = [&](std::uint32_t facet) {
+    const Facet& f = surface.facets[facet];
+    return (mesh.points[f[1]] - mesh.points[f[0]]).cross(mesh.points[f[2]] - mesh.points[f[0]]).normalized();
+  };
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const auto& [ends, f] = sides[i];
+    const bool back_to_back = ends == sides[i + 1].ends && normal(f).dot(normal(sides[i + 1].facet)) < -0.1;
+    if (back_to_back && angle_round(mesh, around, ends[0], ends[1]) > 2 * std::numbers::pi - kLeastGap) {
+      pairs.push_back({f, sides[i + 1].facet});
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::size_t count_crossings_of_labels(const MaterialMesh& mesh, const std::vector<MaterialId>& label_of) {
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  std::vector<Facet> facets;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const TetId across = neighbours[t][n];
+      const bool parts =
+          across == kNoTet || (t < across && label_of[mesh.materials[t]] != label_of[mesh.materials[across]]);
+      if (parts) {
+        const auto& nodes = mesh.tets[t];
+        facets.push_back({nodes[kTetFace[n][0]], nodes[kTetFace[n][1]], nodes[kTetFace[n][2]]});
+      }
+    }
+  }
+  return crossing_facets(mesh.points, facets).size();
+}
+
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
                                const CrossingOptions& options) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   Retreat retreat(mesh, hosted, options);
   for (int round = 0;; ++round) {
     const OuterSurface surface = outer_surface(mesh);
-    pairs = crossing_facets(mesh.points, surface.facets);
+    std::vector<Facet> facets = surface.facets;
+    facets.insert(facets.end(), surface.inner.begin(), surface.inner.end());
+    pairs = crossing_facets(mesh.points, facets);
+    const auto overfull = overfull_pairs(mesh, retreat.around(), surface);
+    pairs.insert(pairs.end(), overfull.begin(), overfull.end());
     if (pairs.empty() || round == options.rounds) {
       return pairs.size();
     }
     std::vector<VertexId> vertices;
     for (const auto& pair : pairs) {
       for (const std::uint32_t f : pair) {
-        vertices.insert(vertices.end(), surface.facets[f].begin(), surface.facets[f].end());
+        vertices.insert(vertices.end(), facets[f].begin(), facets[f].end());
       }
     }
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     std::size_t moved = 0;
     for (const VertexId v : vertices) {
+      if (surface.normals[v].squared_norm() == 0) {
+        continue;  // inside
+      }
       moved += retreat.move(v, -1 * surface.normals[v].normalized()) ? 1 : 0;
     }
     if (moved == 0) {

@@ -29,8 +29,13 @@ bool facets_cross(const std::vector<Vec3>& points, const std::array<VertexId, 3>
 bool facets_fold(const std::vector<Vec3>& points, const std::array<VertexId, 3>& f, VertexId behind_f,
                  const std::array<VertexId, 3>& g, VertexId behind_g);
 
-/// Draws the vertices of crossing facets back into their own tets until nothing crosses; their points stay
-/// within reach. Returns the pairs left.
+/// How many pairs of facets between labels, or on the outer surface, cross. Where a gap is turned inside out
+/// by facets that share an edge, no outer ones cross, but others do. `label_of`: the label of each material.
+std::size_t count_crossings_of_labels(const MaterialMesh& mesh, const std::vector<MaterialId>& label_of);
+
+/// Draws the vertices of crossing facets, and of facets with an edge in common round which the tets fill more
+/// than a full turn, back into their own tets until there are none; their points stay within reach. Returns
+/// the pairs left.
 std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
                                const CrossingOptions& options);
 

@@ -113,7 +113,7 @@ void FaultMeter::list_vertices_near_points(const std::vector<VertexId>& vertices
 void FaultMeter::list_facets_near(const std::vector<VertexId>& vertices) {
   std::vector<TetId> tets;
   for (const VertexId v : vertices) {
-    if (complex_.set(v).has(kBackground)) {
+    if (complex_.set(v).size > 1) {
       tets.insert(tets.end(), complex_.star(v).begin(), complex_.star(v).end());
     }
   }
@@ -121,12 +121,12 @@ void FaultMeter::list_facets_near(const std::vector<VertexId>& vertices) {
   add_facets(tets, facets_);
 }
 
-void FaultMeter::add_facets(std::vector<TetId>& tets, std::vector<OuterFacet>& facets) const {
+void FaultMeter::add_facets(std::vector<TetId>& tets, std::vector<Facet>& facets) const {
   std::sort(tets.begin(), tets.end());
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
   for (const TetId t : tets) {
-    for (std::size_t n = 0; complex_.material(t) != kBackground && n < 4; ++n) {
-      if (complex_.across(t, n) == kBackground) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      if (complex_.is_facet(t, n)) {
         facets.push_back(facet(t, n));
       }
     }
@@ -188,8 +188,9 @@ double FaultMeter::far(const std::vector<VertexId>& vertices) const {
   return sum;
 }
 
-FaultMeter::OuterFacet FaultMeter::facet(TetId t, std::size_t n) const {
-  OuterFacet facet{};
+FaultMeter::Facet FaultMeter::facet(TetId t, std::size_t n) const {
+  Facet facet{};
+  facet.is_outer = complex_.across(t, n) == kBackground;
   facet.behind = complex_.mesh().tets[t][n];
   Box box;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -203,33 +204,33 @@ FaultMeter::OuterFacet FaultMeter::facet(TetId t, std::size_t n) const {
 }
 
 void FaultMeter::count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceFaults& faults) const {
-  const auto is_active = [&](const OuterFacet& f) {
+  const auto is_active = [&](const Facet& f) {
     return has(vertices, f.nodes[0]) || has(vertices, f.nodes[1]) || has(vertices, f.nodes[2]);
   };
   std::vector<TetId> tets;
   for (const VertexId v : vertices) {
     tets.insert(tets.end(), complex_.star(v).begin(), complex_.star(v).end());
   }
-  std::vector<OuterFacet> facets;
+  std::vector<Facet> facets;
   add_facets(tets, facets);
-  std::erase_if(facets, [&](const OuterFacet& f) { return !is_active(f); });
+  std::erase_if(facets, [&](const Facet& f) { return !is_active(f); });
   const std::size_t active = facets.size();
   Box box;
-  for (const OuterFacet& f : facets) {
+  for (const Facet& f : facets) {
     box.add(f.low);
     box.add(f.high);
   }
-  std::copy_if(facets_.begin(), facets_.end(), std::back_inserter(facets), [&](const OuterFacet& f) {
-    return boxes_meet(f.low, f.high, box.low, box.high) && !is_active(f);
-  });
+  std::copy_if(facets_.begin(), facets_.end(), std::back_inserter(facets),
+               [&](const Facet& f) { return boxes_meet(f.low, f.high, box.low, box.high) && !is_active(f); });
   const std::vector<Vec3>& points = complex_.mesh().points;
   for (std::size_t i = 0; i < active; ++i) {
-    const OuterFacet& f = facets[i];
+    const Facet& f = facets[i];
     for (std::size_t j = i + 1; j < facets.size(); ++j) {
-      const OuterFacet& g = facets[j];
+      const Facet& g = facets[j];
       if (boxes_meet(f.low, f.high, g.low, g.high)) {
         faults.cuts += facets_cross(points, f.nodes, g.nodes) ? 1 : 0;
-        faults.folds += facets_fold(points, f.nodes, f.behind, g.nodes, g.behind) ? 1 : 0;
+        const bool may_fold = f.is_outer && g.is_outer;
+        faults.folds += may_fold && facets_fold(points, f.nodes, f.behind, g.nodes, g.behind) ? 1 : 0;
       }
     }
   }
@@ -294,39 +295,49 @@ namespace {
 
 using Seeds = std::vector<std::vector<VertexId>>;
 
-struct OuterFacets {
-  std::vector<std::array<VertexId, 3>> facets;
-  std::vector<VertexId> behind;
+using Triangle = std::array<VertexId, 3>;
+
+struct Facets {
+  std::vector<Triangle> nodes;   // outer ones first
+  std::vector<VertexId> behind;  // of the outer ones
 };
 
-OuterFacets outer_facets(const LabelledComplex& complex) {
+Facets all_facets(const LabelledComplex& complex) {
   const MaterialMesh& mesh = complex.mesh();
-  OuterFacets outer;
+  Facets facets;
+  std::vector<Triangle> inner;
   for (TetId t = 0; t < mesh.tets.size(); ++t) {
-    for (std::size_t n = 0; complex.material(t) != kBackground && n < 4; ++n) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      if (!complex.is_facet(t, n)) {
+        continue;
+      }
+      const auto& face = kTetFace[n];
+      const Triangle nodes = {mesh.tets[t][face[0]], mesh.tets[t][face[1]], mesh.tets[t][face[2]]};
       if (complex.across(t, n) == kBackground) {
-        const auto& face = kTetFace[n];
-        outer.facets.push_back({mesh.tets[t][face[0]], mesh.tets[t][face[1]], mesh.tets[t][face[2]]});
-        outer.behind.push_back(mesh.tets[t][n]);
+        facets.nodes.push_back(nodes);
+        facets.behind.push_back(mesh.tets[t][n]);
+      } else {
+        inner.push_back(nodes);
       }
     }
   }
-  return outer;
+  facets.nodes.insert(facets.nodes.end(), inner.begin(), inner.end());
+  return facets;
 }
 
-/// Pairs of facets that fold over a common edge.
+/// Pairs of outer facets that fold over a common edge.
 std::vector<std::array<std::uint32_t, 2>> folded_facets(const std::vector<Vec3>& points,
-                                                        const OuterFacets& outer) {
+                                                        const Facets& facets) {
   struct Side {
     VertexId low, high;
     std::uint32_t facet;
     auto operator<=>(const Side&) const = default;
   };
   std::vector<Side> sides;
-  sides.reserve(3 * outer.facets.size());
-  for (std::uint32_t f = 0; f < outer.facets.size(); ++f) {
+  sides.reserve(3 * facets.behind.size());
+  for (std::uint32_t f = 0; f < facets.behind.size(); ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(outer.facets[f][i], outer.facets[f][(i + 1) % 3]);
+      const auto [low, high] = std::minmax(facets.nodes[f][i], facets.nodes[f][(i + 1) % 3]);
       sides.push_back({low, high, f});
     }
   }
@@ -337,7 +348,7 @@ std::vector<std::array<std::uint32_t, 2>> folded_facets(const std::vector<Vec3>&
          o < sides.size() && sides[o].low == sides[s].low && sides[o].high == sides[s].high; ++o) {
       const std::uint32_t f = sides[s].facet;
       const std::uint32_t g = sides[o].facet;
-      if (facets_fold(points, outer.facets[f], outer.behind[f], outer.facets[g], outer.behind[g])) {
+      if (facets_fold(points, facets.nodes[f], facets.behind[f], facets.nodes[g], facets.behind[g])) {
         pairs.push_back({f, g});
       }
     }
@@ -346,11 +357,10 @@ std::vector<std::array<std::uint32_t, 2>> folded_facets(const std::vector<Vec3>&
 }
 
 /// The vertices of each pair.
-void add_pairs(const OuterFacets& outer, const std::vector<std::array<std::uint32_t, 2>>& pairs,
-               Seeds& faults) {
+void add_pairs(const Facets& facets, const std::vector<std::array<std::uint32_t, 2>>& pairs, Seeds& faults) {
   for (const auto& [f, g] : pairs) {
-    std::vector<VertexId> seeds(outer.facets[f].begin(), outer.facets[f].end());
-    seeds.insert(seeds.end(), outer.facets[g].begin(), outer.facets[g].end());
+    std::vector<VertexId> seeds(facets.nodes[f].begin(), facets.nodes[f].end());
+    seeds.insert(seeds.end(), facets.nodes[g].begin(), facets.nodes[g].end());
     std::sort(seeds.begin(), seeds.end());
     seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
     faults.push_back(std::move(seeds));
@@ -426,9 +436,9 @@ void add_lonely(const LabelledComplex& complex, const SurfaceGuide& guide, Seeds
 
 FaultList find_surface_faults(const LabelledComplex& complex, const SurfaceGuide& guide) {
   FaultList faults;
-  const OuterFacets outer = outer_facets(complex);
-  add_pairs(outer, crossing_facets(complex.mesh().points, outer.facets), faults.seeds);
-  add_pairs(outer, folded_facets(complex.mesh().points, outer), faults.folds);
+  const Facets facets = all_facets(complex);
+  add_pairs(facets, crossing_facets(complex.mesh().points, facets.nodes), faults.seeds);
+  add_pairs(facets, folded_facets(complex.mesh().points, facets), faults.folds);
   faults.cuts = faults.seeds.size();
   add_vertices(complex, guide, faults.seeds);
   add_lonely(complex, guide, faults.seeds);

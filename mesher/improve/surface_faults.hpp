@@ -2,7 +2,8 @@
 // can be judged by what it does to all of it.
 //
 // Notation: pinch   a vertex where the surface of a label is no manifold;
-//           cut     two outer facets that cross or touch where they share no vertex;
+//           facet   a face between two labels, or between a label and the outside: an outer one;
+//           cut     two facets that cross or touch where they share no vertex;
 //           fold    two outer facets that share an edge, one within the tet behind the other, as at a gap of
 //                   one tet that is inside out: no facets cut each other there, but tets overlap;
 //           far     a surface vertex too far from the boundary voxels of one of its labels;
@@ -111,16 +112,17 @@ class FaultMeter {
   [[nodiscard]] double distance_mm(std::uint32_t i, bool outer, VertexId& nearest) const;
 
  private:
-  struct OuterFacet {
+  struct Facet {
     std::array<VertexId, 3> nodes;
     VertexId behind;  // the tet's fourth vertex
+    bool is_outer;
     Vec3 low, high;
   };
   void make_grids();
   void list_vertices_near_points(const std::vector<VertexId>& vertices);
   void list_facets_near(const std::vector<VertexId>& vertices);
-  void add_facets(std::vector<TetId>& tets, std::vector<OuterFacet>& facets) const;
-  [[nodiscard]] OuterFacet facet(TetId t, std::size_t n) const;
+  void add_facets(std::vector<TetId>& tets, std::vector<Facet>& facets) const;
+  [[nodiscard]] Facet facet(TetId t, std::size_t n) const;
   [[nodiscard]] bool is_on(VertexId v, std::uint32_t point, bool outer) const;
   void count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceFaults& faults) const;
   [[nodiscard]] double lonely(const Scope& scope) const;
@@ -133,7 +135,7 @@ class FaultMeter {
   std::vector<std::uint32_t> points_;
   std::vector<std::uint32_t> first_near_;  // of each point, into near_
   std::vector<VertexId> near_;
-  std::vector<OuterFacet> facets_;
+  std::vector<Facet> facets_;
 };
 
 }  // namespace cbc3d

@@ -23,7 +23,7 @@ struct MendOptions {
 struct MendReport {
   std::size_t faults = 0;  ///< before; one may count several times
   std::size_t faults_left = 0;
-  std::size_t cuts_left = 0;  ///< pairs of outer facets
+  std::size_t cuts_left = 0;  ///< pairs of facets
   std::size_t folds = 0;      ///< likewise, before
   std::size_t folds_left = 0;
   std::size_t tets_relabelled = 0;

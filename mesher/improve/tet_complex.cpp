@@ -37,7 +37,8 @@ double TetComplex::sine_squared(TetId t) const {
   return min_sine_squared(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]);
 }
 
-void TetComplex::star(VertexId v, std::vector<TetId>& tets) const {
+template <typename Ends>
+TetId TetComplex::walk_star(VertexId v, std::vector<TetId>& tets, const Ends& ends) const {
   tets.clear();
   if (++stamp_ == 0) {
     std::fill(seen_.begin(), seen_.end(), 0);
@@ -47,15 +48,24 @@ void TetComplex::star(VertexId v, std::vector<TetId>& tets) const {
   seen_[tet_at_[v]] = stamp_;
   for (std::size_t i = 0; i < tets.size(); ++i) {
     const TetId t = tets[i];
+    if (ends(t)) {
+      return t;
+    }
     const auto& nodes = tets_[t];
+    const auto& across = across_[t];
     for (unsigned n = 0; n < 4; ++n) {
-      const TetId next = across_[t][n];
+      const TetId next = across[n];
       if (nodes[n] != v && next != kNoTet && seen_[next] != stamp_) {
         seen_[next] = stamp_;
         tets.push_back(next);
       }
     }
   }
+  return kNoTet;
+}
+
+void TetComplex::star(VertexId v, std::vector<TetId>& tets) const {
+  walk_star(v, tets, [](TetId) { return false; });
 }
 
 void TetComplex::neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& vertices) const {
@@ -105,10 +115,9 @@ bool TetComplex::ring(VertexId a, VertexId b, EdgeRing& ring) const {
   ring.tets.clear();
   ring.closed = false;
   thread_local std::vector<TetId> around;
-  star(locked(a) ? b : a, around);
   const VertexId other = locked(a) ? a : b;
-  const auto found = std::find_if(around.begin(), around.end(), [&](TetId t) { return has_node(t, other); });
-  if (found == around.end()) {
+  const TetId found = walk_star(locked(a) ? b : a, around, [&](TetId t) { return has_node(t, other); });
+  if (found == kNoTet) {
     return false;
   }
   // Rotate backwards to the outside or once round, then forwards.
@@ -137,16 +146,16 @@ bool TetComplex::ring(VertexId a, VertexId b, EdgeRing& ring) const {
     }
     return e;
   };
-  TetId first = *found;
+  TetId first = found;
   for (TetId t = first;;) {
     const TetId back = step(t, ends(t)[0]);
     if (back == kNoTet) {
       first = t;
       break;
     }
-    if (back == *found) {
+    if (back == found) {
       ring.closed = true;
-      first = *found;
+      first = found;
       break;
     }
     t = back;
@@ -201,28 +210,36 @@ void TetComplex::collect_faces(std::span<const TetId> old, std::span<const Fresh
     }
   }
   std::sort(faces_.begin(), faces_.end(), [](const OpenFace& a, const OpenFace& b) {
-    return a.key != b.key ? a.key < b.key : a.fresh < b.fresh;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (a.key[i] != b.key[i]) {
+        return a.key[i] < b.key[i];
+      }
+    }
+    return a.fresh < b.fresh;
   });
 }
 
-bool TetComplex::is_elsewhere(const Face& face, std::span<const TetId> old) const {
+bool TetComplex::is_elsewhere(const Face& face, std::span<const TetId> old) {
   const auto free =
       std::find_if(face.begin(), face.end(), [&](VertexId v) { return !locked(v) && in_use(v); });
   if (free == face.end()) {
     return false;
   }
-  thread_local std::vector<TetId> around;
-  star(*free, around);
-  return std::any_of(around.begin(), around.end(), [&](TetId t) {
+  if (known_.vertex != *free) {
+    star(*free, known_.tets);
+    known_.vertex = *free;
+  }
+  return std::any_of(known_.tets.begin(), known_.tets.end(), [&](TetId t) {
     return has_node(t, face[0]) && has_node(t, face[1]) && has_node(t, face[2]) &&
            std::find(old.begin(), old.end(), t) == old.end();
   });
 }
 
-bool TetComplex::faces_fit(std::span<const TetId> old) const {
+bool TetComplex::faces_fit(std::span<const TetId> old) {
+  known_.vertex = kNoVertex;
   for (std::size_t i = 0; i < faces_.size();) {
     std::size_t same = 1;
-    while (i + same < faces_.size() && faces_[i + same].key == faces_[i].key) {
+    while (i + same < faces_.size() && faces_[i + same].same_key(faces_[i])) {
       ++same;
     }
     const bool fresh = faces_[i].fresh;  // those that were there come first
@@ -278,7 +295,7 @@ bool TetComplex::replace(std::span<const TetId> old, std::span<const FreshTet> f
     }
   }
   for (std::size_t i = 0; i + 1 < faces_.size(); ++i) {
-    if (faces_[i].key == faces_[i + 1].key) {
+    if (faces_[i].same_key(faces_[i + 1])) {
       const auto tet = [&](const OpenFace& f) { return f.fresh ? placed_[f.tet] : f.tet; };
       across_[tet(faces_[i])][faces_[i].node] = tet(faces_[i + 1]);
       across_[tet(faces_[i + 1])][faces_[i + 1].node] = tet(faces_[i]);

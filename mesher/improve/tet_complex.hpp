@@ -91,11 +91,22 @@ class TetComplex {
     TetId tet;          // or the index of a fresh one
     std::uint8_t node;  // opposite to the face
     bool fresh;
+    [[nodiscard]] bool same_key(const OpenFace& other) const {  // a call of memcmp costs more
+      return key[0] == other.key[0] && key[1] == other.key[1] && key[2] == other.key[2];
+    }
   };
+  /// A star that was asked for last.
+  struct KnownStar {
+    VertexId vertex = kNoVertex;
+    std::vector<TetId> tets;
+  };
+  /// Visits a star's tets until one ends the walk, which is returned; kNoTet: none did, `tets` is the star.
+  template <typename Ends>
+  TetId walk_star(VertexId v, std::vector<TetId>& tets, const Ends& ends) const;
   TetId take_slot();
   void collect_faces(std::span<const TetId> old, std::span<const FreshTet> fresh);
-  [[nodiscard]] bool faces_fit(std::span<const TetId> old) const;
-  [[nodiscard]] bool is_elsewhere(const Face& face, std::span<const TetId> old) const;
+  [[nodiscard]] bool faces_fit(std::span<const TetId> old);
+  [[nodiscard]] bool is_elsewhere(const Face& face, std::span<const TetId> old);
   void remove(std::span<const TetId> old);
 
   std::vector<Vec3> points_;
@@ -107,6 +118,7 @@ class TetComplex {
   std::vector<TetId> free_;
   std::vector<OpenFace> faces_;  // scratch of replace
   std::vector<TetId> placed_;    // likewise
+  KnownStar known_;              // likewise
   mutable std::vector<std::uint32_t> seen_;
   mutable std::uint32_t stamp_ = 0;
 };

@@ -47,15 +47,20 @@ std::vector<double> volumes_of_materials(const LabelImage& image) {
 }
 
 /// Moves the boundaries outwards by what each material lacks in volume, at most half a voxel in all.
+/// Where the last correction (`lacks_mm3`, renewed) brought less than it should have, this one is larger.
 void correct_volumes(const MaterialMesh& mesh, const LabelImage& image, const std::vector<double>& wanted_mm3,
-                     ImageBoundary& boundary) {
+                     std::vector<double>& lacks_mm3, ImageBoundary& boundary) {
+  constexpr double kLargestFactor = 3;
   const double most_mm = 0.5 * std::cbrt(voxel_volume_mm3(image));
   const Extent extent = extent_of_materials(mesh, image.material_count());
   std::vector<double> offsets = boundary.offsets();
   for (std::size_t m = 1; m < offsets.size(); ++m) {
     if (extent.area_mm2[m] > 0) {
       const double lack = wanted_mm3[m] - extent.volume_mm3[m];
-      offsets[m] = std::clamp(offsets[m] + lack / extent.area_mm2[m], -most_mm, most_mm);
+      const double left = lacks_mm3[m] != 0 ? lack / lacks_mm3[m] : 0;
+      const double factor = left > 0 && left < 1 ? std::min(kLargestFactor, 1 / (1 - left)) : 1;
+      offsets[m] = std::clamp(offsets[m] + factor * lack / extent.area_mm2[m], -most_mm, most_mm);
+      lacks_mm3[m] = lack;
     }
   }
   boundary.set_offsets(std::move(offsets));
@@ -100,6 +105,55 @@ void host_far_points(const MaterialMesh& mesh, const std::vector<MaterialSet>& s
     }
     lost = std::move(still_lost);
   }
+}
+
+/// Thin parts keep their vertices nearer, but for what is farther as it is.
+void host_thin_points(const MaterialMesh& mesh, const ImproveTarget& target, Hosted& hosted) {
+  hosted.far_reach_mm.assign(hosted.points.size(), 0);
+#pragma omp parallel for schedule(static)
+  for (std::size_t p = 0; p < hosted.points.size(); ++p) {
+    if (hosted.hosts[p] != kNoVertex && target.is_thin(hosted.points[p])) {
+      const double distance_mm = (mesh.points[hosted.hosts[p]] - hosted.points[p].centre()).norm();
+      hosted.far_reach_mm[p] = static_cast<float>(std::max(target.thin_reach_mm, 1.05 * distance_mm));
+    }
+  }
+}
+
+/// True when a voxel is in no 2x2x2 block of its own label.
+bool is_thin_at(const LabelImage& image, const Index3& at) {
+  const MaterialId own = image.at_or_background(at[0], at[1], at[2]);
+  for (int block = 0; block < 8; ++block) {
+    bool whole = true;
+    for (int corner = 0; corner < 8 && whole; ++corner) {
+      whole = image.at_or_background(at[0] - (block & 1) + (corner & 1),
+                                     at[1] - (block >> 1 & 1) + (corner >> 1 & 1),
+                                     at[2] - (block >> 2) + (corner >> 2)) == own;
+    }
+    if (whole) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// True when a point's voxel is thin, or one across its interface.
+bool is_thin(const LabelImage& image, const InterfacePoint& point) {
+  Index3 at{};
+  for (int axis = 0; axis < 3; ++axis) {
+    at[static_cast<std::size_t>(axis)] =
+        static_cast<int>(std::lround(point.centre()[axis] / image.frame.spacing_mm[axis]));
+  }
+  if (is_thin_at(image, at)) {
+    return true;
+  }
+  for (std::size_t side = 0; side < 6 && point.other == kBackground; ++side) {
+    Index3 next = at;
+    next[side / 2] += side % 2 == 0 ? 1 : -1;
+    if (image.at_or_background(next[0], next[1], next[2]) == point.other && is_thin_at(image, next)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 Hosted find_hosts(const MaterialMesh& mesh, const ImproveTarget& target, ImproveReport& report) {
@@ -172,11 +226,15 @@ class Improver {
     timed("hosts", [this] { hosted_ = find_hosts(mesh_, target_, report_); });
     for (int i = 0; i < options_.untangle_rounds && repair("untangling", 0, i) > 0; ++i) {
     }
-    for (int i = 0; i < (options_.only_bad ? 0 : kFittings); ++i) {
+    if (!options_.only_bad) {
       fit();
-    }
-    for (int i = 0; i < (options_.only_bad ? 0 : options_.decimation_rounds); ++i) {
-      decimate();
+      if (target_.is_thin && !target_.keep_distances) {
+        host_thin_points(mesh_, target_, hosted_);
+      }
+      thin_out();
+      for (int i = 0; i < kSettlings && (i == 0 || largest_lack() > kLargestLack); ++i) {
+        settle();
+      }
     }
     for (int i = 0; i < options_.repair_rounds && repair("repair", goal_, i) > 0; ++i) {
     }
@@ -194,12 +252,16 @@ class Improver {
  private:
   static constexpr double kMarginDeg = 1e-3;  // rounding when the mesh is written must not undo the goal
   static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
-  static constexpr double kLongestGrowth = 2.5;
-  static constexpr int kFittings = 2;
-  static constexpr int kLastRepairs = 4;
+  static constexpr double kLongestGrowth = 5;
+  static constexpr double kVolumeShare = 0.05;   // that a collapse may take from a material round it
+  static constexpr int kSettlings = 10;          // at most
+  static constexpr double kLargestLack = 0.004;  // of a volume, after which no more are needed
+  static constexpr double kSmallChanges = 60;    // volumes of so many largest changes do not count
+  static constexpr double kFewerShare = 0.97;    // a round of decimation that leaves more is the last
+  static constexpr int kLastRepairs = 8;
   static constexpr int kFarRepair = 4;  // the round of a repair from which on all its leeway is given
   static constexpr double kFarthestReach =
-      1.05;                               // of a vertex, in the target's scale, where nothing else helps
+      1.08;                               // of a vertex, in the target's scale, where nothing else helps
   static constexpr double kLimit = 1.09;  // of distances in the end, likewise
 
   /// Vertices to the boundary, tets into shape.
@@ -214,10 +276,54 @@ class Improver {
     });
   }
 
+  /// Of a material's volume, the largest share that is missing or too much; small ones do not count.
+  [[nodiscard]] double largest_lack() const {
+    if (target_.volumes_mm3.empty()) {
+      return 0;
+    }
+    const Extent extent = extent_of_materials(mesh_, target_.volumes_mm3.size());
+    double largest = 0;
+    for (std::size_t m = 1; m < target_.volumes_mm3.size(); ++m) {
+      const double wanted = target_.volumes_mm3[m];
+      if (wanted > kSmallChanges * target_.largest_change_mm3) {
+        largest = std::max(largest, std::fabs(wanted - extent.volume_mm3[m]) / wanted);
+      }
+    }
+    return largest;
+  }
+
+  /// The volumes after the last round are known only now.
+  void settle() {
+    in_patches("settling", [this](Patch& patch) {
+      relax_vertices(patch, relax_);
+      relax_vertices(patch, relax_);
+    });
+  }
+
+  /// Rounds of decimation as long as they are worth it.
+  void thin_out() {
+    double before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < options_.decimation_rounds; ++i) {
+      const auto tets = static_cast<double>(mesh_.tets.size());
+      if (tets > kFewerShare * before) {
+        return;
+      }
+      before = tets;
+      decimate();
+    }
+  }
+
+  [[nodiscard]] double collapse_deg() const {
+    return std::max(options_.min_dihedral_deg - options_.collapse_leeway_deg,
+                    0.5 * options_.min_dihedral_deg);
+  }
+
   void decimate() {
     const bool graded = options_.gradation >= 0;
-    const CollapseOptions collapse{goal_, kLongestGrowth,
-                                   target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false, graded};
+    CollapseOptions collapse{sine_squared_of_deg(collapse_deg()), kLongestGrowth,
+                             target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false, graded};
+    collapse.place_anew = true;
+    collapse.volume_share = kVolumeShare;
     if (graded) {
       sizes_ = graded_sizes(mesh_, options_.gradation);
     }
@@ -233,6 +339,7 @@ class Improver {
       pull_strays(patch, relax_);
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
+      climb_vertices(patch, goal_);
     });
     sizes_.clear();
   }
@@ -247,7 +354,7 @@ class Improver {
       rules.reach_mm =
           std::max(rules.reach_mm, std::min(kFarthestReach * unit, rules.reach_mm + 0.05 * round * unit));
       double& deviation_mm = rules.guards.deviation_mm;
-      deviation_mm = std::max(deviation_mm, std::min(0.4 * unit, deviation_mm + 0.05 * round * unit));
+      deviation_mm = std::max(deviation_mm, std::min(0.5 * unit, deviation_mm + 0.05 * round * unit));
     }
     on_round_(round_);
     std::size_t bad = 0;
@@ -293,7 +400,7 @@ class Improver {
     with_points(target_.keep_distances ? hosted_.reach_mm : farthest_mm,
                 [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
     const bool may_mend = target_.places.is_near && !target_.keep_distances;
-    if (may_mend && (may_have_faults_ || has_lonely_points())) {
+    if (may_mend && (may_have_faults_ || has_lonely_points() || have_labels_crossings())) {
       timed("mending", [this] { mend(); });
     }
   }
@@ -309,6 +416,10 @@ class Improver {
             (mesh_.points[host] - hosted_.points[p].centre()).squared_norm() > limit_squared;
     }
     return any;
+  }
+
+  [[nodiscard]] bool have_labels_crossings() const {
+    return count_crossings_of_labels(mesh_, target_.places.label_of) > 0;
   }
 
   void mend() {
@@ -399,6 +510,12 @@ class Improver {
     report_.rounds = round_;
     report_.tets_after = mesh_.tets.size();
     report_.min_dihedral_after_deg = degrees(worst_sine_squared(mesh_));
+    if (!options_.only_bad && !target_.places.label_of.empty()) {
+      timed("check", [this] {
+        report_.crossings_left =
+            std::max(report_.crossings_left, count_crossings_of_labels(mesh_, target_.places.label_of));
+      });
+    }
   }
 
   MaterialMesh& mesh_;
@@ -436,14 +553,19 @@ ImproveReport improve_mesh(MaterialMesh& mesh, const LabelImage& image, const Im
   const std::vector<InterfacePoint> points = interface_points(image);
   ImproveTarget target{boundary, points, diagonal_mm};
   target.deviation_mm = options.deviation_diagonals * diagonal_mm;
-  target.reach_mm = options.reach_mm > 0 ? options.reach_mm : 0.9 * diagonal_mm;
+  target.reach_mm = options.reach_mm > 0 ? options.reach_mm : kReachDiagonals * diagonal_mm;
   target.longest_mm = values_of_materials(image, options.size_mm, std::numeric_limits<double>::infinity());
   target.keep_distances = options.keep_distances;
+  target.is_thin = [&image](const InterfacePoint& point) { return is_thin(image, point); };
+  target.thin_reach_mm = std::min(
+      target.reach_mm,
+      0.95 * std::max({image.frame.spacing_mm.x, image.frame.spacing_mm.y, image.frame.spacing_mm.z}));
   target.places = places_of(image, boundary);
   target.largest_change_mm3 = 8 * voxel_volume_mm3(image);
   target.volumes_mm3 = volumes_of_materials(image);
+  std::vector<double> lacks_mm3(image.material_count(), 0.0);
   target.correct = [&](const MaterialMesh& now) {
-    correct_volumes(now, image, target.volumes_mm3, boundary);
+    correct_volumes(now, image, target.volumes_mm3, lacks_mm3, boundary);
   };
   return improve_mesh(mesh, target, options, on_round);
 }

@@ -18,11 +18,13 @@
 
 namespace cbc3d {
 
+inline constexpr double kReachDiagonals = 1.06;  ///< where a surface vertex is to be, by default
+
 struct ImproveOptions {
   bool enabled = false;
   double min_dihedral_deg = 20;  ///< goal: no dihedral angle below this, none above 180 degrees minus it
-  double reach_mm = 0;  ///< every boundary voxel keeps a surface vertex so near; 0: .9 voxel diagonals
-  double deviation_diagonals = 0.2;  ///< facets stay so near to the boundary, voxel diagonals
+  double reach_mm = 0;           ///< every boundary voxel keeps a surface vertex so near; 0: kReachDiagonals
+  double deviation_diagonals = 0.35;  ///< facets stay so near to the boundary, voxel diagonals
   double surface_weight =
       1000;  ///< pull to the boundary against the tets' shape, distances in voxel diagonals
   /// In [0,1]: how much of the pull to the boundary goes to smooth surfaces, see RelaxOptions; 0: none.
@@ -33,8 +35,10 @@ struct ImproveOptions {
   /// No inner vertex vanishes for edges longer than those of the nearest interface and this times the way to
   /// there, about (see graded_sizes); interfaces thin out as ever. Below 0: no limit.
   double gradation = -1;
-  int decimation_rounds = 3;  ///< 0: as many tets as before
-  int repair_rounds = 8;      ///< at most; they end when the goal is reached
+  /// Collapses may leave angles so far below the goal, though not below half of it, to what follows them.
+  double collapse_leeway_deg = 7.5;
+  int decimation_rounds = 6;  ///< at most, see kFewerShare; 0: as many tets as before
+  int repair_rounds = 12;     ///< at most; they end when the goal is reached
   int untangle_rounds = 3;    ///< at most, before all else, while a tet is flat or inside out
   bool only_bad = false;  ///< only tets below the goal and what is round them; no relaxation, no decimation
   /// The reach is no larger than the largest distance of a point within reach was, and points beyond it are
@@ -49,9 +53,11 @@ struct ImproveTarget {
   const std::vector<InterfacePoint>& points;  ///< to be kept within reach of a surface vertex; may be empty
   double scale_mm = 1;                        ///< unit of distances from the boundary: the voxel diagonal
   double deviation_mm = 0.15;                 ///< facets stay so near to the boundary
-  double reach_mm = 0.9;                      ///< of a surface vertex
+  double reach_mm = kReachDiagonals;          ///< of a surface vertex
   std::vector<double> longest_mm = {};        ///< edges of each material; empty: no limit
   bool keep_distances = false;                ///< as in ImproveOptions
+  std::function<bool(const InterfacePoint&)> is_thin = {};  ///< in a part that wears away easily; may be null
+  double thin_reach_mm = 0;                                 ///< for these
   std::function<void(const MaterialMesh&)> correct =
       {};                                ///< moves the boundary by what the volumes lack; may be null
   std::vector<VertexId> hosts = {};      ///< of the points, where known; else they are looked for
@@ -67,7 +73,7 @@ struct ImproveReport {
   std::size_t boundary_points = 0;
   std::size_t uncovered_points = 0;  ///< without a surface vertex in reach in the end
   std::size_t tets_relabelled = 0;   ///< in the end: strays, and what could not be drawn apart
-  std::size_t crossings_left = 0;    ///< pairs of outer facets that cut each other
+  std::size_t crossings_left = 0;    ///< pairs of facets between labels, or outer ones, that cut each other
   std::size_t faults_left = 0;       ///< places where a surface is not as it should be, see MendReport
   /// Seconds by part: hosts, untangling, fitting, volumes, decimation, repair, crossings, mending.
   std::vector<std::pair<std::string, double>> part_seconds;

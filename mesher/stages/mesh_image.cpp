@@ -25,8 +25,15 @@ class StageLog {
     const Stopwatch watch;
     struct Record {
       ~Record() {
-        report.stage_seconds.emplace_back(name, watch.seconds());
-        report.seconds += watch.seconds();
+        const double seconds = watch.seconds();
+        const auto known = std::find_if(report.stage_seconds.begin(), report.stage_seconds.end(),
+                                        [&](const auto& stage) { return stage.first == name; });
+        if (known == report.stage_seconds.end()) {
+          report.stage_seconds.emplace_back(name, seconds);
+        } else {
+          known->second += seconds;
+        }
+        report.seconds += seconds;
         report.cpu_seconds += process_cpu_seconds() - cpu_before;
       }
       MeshImageReport& report;
@@ -167,15 +174,9 @@ void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
   }
 }
 
-}  // namespace
-
-Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
-                MeshImageReport& report) {
-  StageLog log(image, options, progress, report);
-
-  report.clean = log.run("image_cleaning", 0.01, [&] { return clean_image(image, options.clean, true); });
-  warn_of_cleaning(report.clean, report);
-
+/// From the clean image to the mesh in local mm.
+MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& options, StageLog& log,
+                              Progress& progress, MeshImageReport& report) {
   Lattice lattice = log.run(
       "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
   if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
@@ -237,6 +238,42 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
     });
     log.dump("5_improved_mesh", mesh);
     warn_of_angles(options, report);
+  }
+  return mesh;
+}
+
+/// True when the improvement has not reached what it is for.
+bool has_faults(const MeshImageOptions& options, const ImproveReport& improve) {
+  constexpr double kHighestGoalDeg = 25;  // steeper goals are often missed, however fine the mesh
+  const double goal_deg = options.improve.min_dihedral_deg;
+  return improve.crossings_left > 0 || improve.faults_left > 0 ||
+         (goal_deg <= kHighestGoalDeg && improve.min_dihedral_after_deg < goal_deg);
+}
+
+MeshImageOptions with_tolerance(MeshImageOptions options, const Tolerance& tolerance) {
+  options.refine.max_distance_mm = tolerance.max_distance_mm;
+  options.improve.reach_mm = tolerance.max_distance_mm;
+  options.improve.deviation_diagonals = tolerance.deviation_diagonals;
+  options.improve.collapse_leeway_deg = tolerance.collapse_leeway_deg;
+  return options;
+}
+
+}  // namespace
+
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
+                MeshImageReport& report) {
+  StageLog log(image, options, progress, report);
+
+  report.clean = log.run("image_cleaning", 0.01, [&] { return clean_image(image, options.clean, true); });
+  warn_of_cleaning(report.clean, report);
+
+  const std::vector<std::string> warnings = report.warnings;
+  MaterialMesh mesh = mesh_clean_image(image, options, log, progress, report);
+  if (options.stricter && options.improve.enabled && !options.mixed && has_faults(options, report.improve)) {
+    mesh = {};
+    report.warnings = warnings;
+    report.was_stricter = true;
+    mesh = mesh_clean_image(image, with_tolerance(options, *options.stricter), log, progress, report);
   }
   return to_physical_mesh(mesh, image);
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,13 @@
 
 namespace cbc3d {
 
+/// What the thinning out is allowed.
+struct Tolerance {
+  double max_distance_mm;      ///< RefineOptions::max_distance_mm and ImproveOptions::reach_mm
+  double deviation_diagonals;  ///< ImproveOptions::deviation_diagonals
+  double collapse_leeway_deg;  ///< ImproveOptions::collapse_leeway_deg
+};
+
 struct MeshImageOptions {
   double lattice_spacing_mm =
       0;  ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
@@ -29,6 +37,9 @@ struct MeshImageOptions {
   MixOptions mix;
   DeformOptions deform;
   ImproveOptions improve;
+  /// Where the improvement leaves faults, or angles below its goal, all is done once more with this: what is
+  /// thinned out less is easier to keep whole. None: never.
+  std::optional<Tolerance> stricter;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
 
@@ -36,7 +47,7 @@ struct MeshImageReport {
   double lattice_spacing_mm = 0;
   double finest_spacing_mm = 0;
   std::vector<std::pair<std::string, double>>
-      stage_seconds;  ///< in order; reading and writing files not included
+      stage_seconds;  ///< in order, of both times where all was done twice; files not included
   double seconds = 0;
   double cpu_seconds = 0;  ///< user and system, all threads, of the same stages
   CleanReport clean;
@@ -45,6 +56,7 @@ struct MeshImageReport {
   MixReport mix;
   DeformReport deform;
   ImproveReport improve;
+  bool was_stricter = false;  ///< the mesh is that of MeshImageOptions::stricter
   std::vector<std::string> warnings;
 };
 

@@ -14,7 +14,7 @@ namespace {
 void refine_by_distance(MeshImageOptions& options, double diagonal_mm) {
   RefineOptions& refine = options.refine;
   refine.fidelity = 0.01;
-  refine.max_distance_mm = 0.9 * diagonal_mm;
+  refine.max_distance_mm = kReachDiagonals * diagonal_mm;
   refine.each_interface = true;
   refine.max_stray_mm = 1.25 * diagonal_mm;
   refine.contact_reach_mm = 0.45 * diagonal_mm;
@@ -49,6 +49,7 @@ MeshImageOptions quality_options(double diagonal_mm) {
   options.deform.displacement.pair_distance = 0.8;
   options.improve.enabled = true;
   options.improve.reach_mm = options.refine.max_distance_mm;
+  options.stricter = Tolerance{0.9 * diagonal_mm, 0.2, 0};
   return options;
 }
 

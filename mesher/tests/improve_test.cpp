@@ -238,6 +238,55 @@ TEST(ImproveOperations, CollapsesStayWithinTheLongestEdge) {
   EXPECT_LE(longest(), limit * (1 + 1e-9));
 }
 
+TEST(ImproveOperations, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
+  for (const LabelImage& image : {touching_balls(), cavity_and_torus()}) {
+    std::array<std::size_t, 2> left{};
+    for (const bool place_anew : {false, true}) {
+      Trial trial(image);
+      trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
+      trial.apply([](Patch& p) { remove_edges(p, kGood); });
+      const std::size_t hosts = hosted(trial);
+      const std::vector<long> chi = trial.characteristics();
+      const double worst = trial.worst_sine_squared();
+      CollapseOptions options{kGoal, 5, nullptr, false};
+      options.place_anew = place_anew;
+      std::size_t removed = 1;
+      for (int pass = 0; removed > 0; ++pass) {
+        ASSERT_LT(pass, 40);  // they end
+        removed = 0;
+        trial.apply([&](Patch& p) { removed += collapse_edges(p, options); });
+      }
+      expect_sound(trial, hosts);
+      EXPECT_EQ(trial.characteristics(), chi);
+      EXPECT_GE(trial.worst_sine_squared(), std::min(worst, kGoal) * (1 - 1e-9));
+      left[place_anew ? 1 : 0] = trial.mesh.tets.size();
+    }
+    EXPECT_LT(left[1], left[0] * 9 / 10);
+  }
+}
+
+TEST(ImproveOperations, CollapsesLeaveThinPartsTheirVolume) {
+  // A plate of one voxel: with the share no more than a little of it is worn away.
+  const LabelImage plate = testing::make_image({24, 24, 9}, {1, 1, 1}, 1, [](const Vec3& p) {
+    return std::hypot(p.x - 11.5, p.y - 11.5) < 9 && std::fabs(p.z - 4) < 0.6 ? 1 : 0;
+  });
+  std::array<double, 2> kept{};
+  for (const bool guarded : {false, true}) {
+    Trial trial(plate);
+    trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
+    const double before = trial.volumes()[1];
+    CollapseOptions options{0.02, 10, nullptr, false};
+    options.place_anew = true;
+    options.volume_share = guarded ? 0 : 1;
+    std::size_t removed = 0;
+    trial.apply([&](Patch& p) { removed += collapse_edges(p, options); });
+    EXPECT_GT(removed, 10U);
+    kept[guarded ? 1 : 0] = trial.volumes()[1] / before;
+  }
+  EXPECT_GE(kept[1], 1 - 1e-9);
+  EXPECT_LT(kept[0], kept[1]);
+}
+
 TEST(ImproveOperations, PullStraysBringsVerticesBackToTheBoundary) {
   Trial trial(touching_balls());
   const auto strays = [&](Patch& patch) {

@@ -232,6 +232,28 @@ TEST(MeshImage, EveryLabelOfANoisyImageIsInTheMeshOrNamed) {
   }
 }
 
+TEST(MeshImage, AllIsDoneOnceMoreWithStricterTolerancesWhereAnglesStayBelowTheGoal) {
+  const LabelImage image = testing::ball_image(24, 1, 9, 4);
+  MeshImageOptions options = preset_options("quality", image.frame);
+  ASSERT_TRUE(options.stricter);
+  MeshImageReport report;
+  mesh_of(image, options, report);
+  EXPECT_FALSE(report.was_stricter);
+  options.improve.repair_rounds = 0;  // what collapses leave below the goal stays there
+  report = {};
+  const Mesh twice = mesh_of(image, options, report);
+  EXPECT_TRUE(report.was_stricter);
+  options.refine.max_distance_mm = options.improve.reach_mm = options.stricter->max_distance_mm;
+  options.improve.deviation_diagonals = options.stricter->deviation_diagonals;
+  options.improve.collapse_leeway_deg = options.stricter->collapse_leeway_deg;
+  options.stricter.reset();
+  MeshImageReport once;
+  EXPECT_TRUE(same_mesh(twice, mesh_of(image, options, once)));
+  EXPECT_FALSE(once.was_stricter);
+  EXPECT_EQ(once.warnings, report.warnings);  // those of the mesh that is returned
+  EXPECT_EQ(once.stage_seconds.size(), report.stage_seconds.size());
+}
+
 TEST(SelectCandidate, NoLabelledTetKeepsTwoFacesTowardsBackground) {
   const LabelImage image = testing::noise_image(24, 0.5, 11);
   MeshImageOptions options;

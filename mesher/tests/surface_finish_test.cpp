@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "mesher/improve/relabel_tets.hpp"
@@ -135,6 +136,37 @@ TEST(RelabelTets, ATipAcrossAGapIsLeftOut) {
   EXPECT_EQ(mesh.tets.size(), kept - report.tets_relabelled);  // out of the mesh
   EXPECT_EQ(faults(mesh), 0U);
   EXPECT_EQ(separate_crossings(mesh, hosted, {0.1, 0, 0}), 0U);
+}
+
+/// Six tets round the edge 0, 1 that together fill so many degrees.
+MaterialMesh fan(double turn_deg) {
+  MaterialMesh mesh;
+  mesh.points = {{0, 0, -1}, {0, 0, 1}};
+  for (int i = 0; i < 7; ++i) {
+    const double angle = turn_deg / 6 * i * std::numbers::pi / 180;
+    mesh.points.push_back({std::cos(angle), std::sin(angle), 0});
+  }
+  for (VertexId i = 0; i < 6; ++i) {
+    mesh.tets.push_back({0, 1, 2 + i, 3 + i});
+    mesh.materials.push_back(1);
+  }
+  return mesh;
+}
+
+TEST(SeparateCrossings, AnEdgeWithMoreThanAFullTurnOfTetsIsCounted) {
+  for (const double turn_deg : {300.0, 355.0, 365.0, 420.0}) {
+    MaterialMesh mesh = fan(turn_deg);
+    ASSERT_EQ(testing::inverted_tets(mesh.tets, mesh.points), 0U);
+    std::vector<std::array<VertexId, 3>> outside = {{0, 1, 2}, {0, 1, 8}};
+    for (VertexId i = 0; i < 6; ++i) {
+      outside.push_back({0, 2 + i, 3 + i});
+      outside.push_back({1, 2 + i, 3 + i});
+    }
+    std::vector<VertexId> hosts;
+    HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
+    const std::size_t left = separate_crossings(mesh, hosted, {0.1, 0, 0});
+    EXPECT_EQ(left, crossing_facets(mesh.points, outside).size() + (turn_deg > 360 ? 1 : 0)) << turn_deg;
+  }
 }
 
 TEST(CrossingFacets, WhatLiesInOnePlaneCrossesOnlyWhereItOverlaps) {

@@ -336,6 +336,45 @@ TEST(MendSurfaces, AGapThatIsInsideOutIsTurnedBack) {
   EXPECT_GE(worst_angle(mesh), std::min(worst, options(1).goal_sine_squared));
 }
 
+/// The pancake over a tet of two materials, an inner one under the gap; and its lowest vertex elsewhere.
+MaterialMesh filled_pancake(const Vec3& lowest) {
+  MaterialMesh mesh = pancake(0);
+  mesh.points[5] = lowest;
+  mesh.points.push_back({0, 0, -0.3});
+  mesh.tets.back() = {0, 2, 1, 6};
+  for (const auto& tet : TetNodes{{0, 1, 4, 6}, {1, 2, 4, 6}, {2, 0, 4, 6}}) {
+    mesh.tets.push_back(tet);
+    mesh.materials.push_back(2);
+  }
+  return mesh;
+}
+
+TEST(MendSurfaces, AnOuterSurfaceThatCutsAnInnerOneIsDrawnOut) {
+  std::mt19937 random(5);
+  const ImagePlaces image = plane_at(kSize, kPlane, 10);
+  const std::vector<InterfacePoint> none;
+  const SurfaceGuide guide{none, image, 1};
+  MendOptions steps_alone = options(1);
+  steps_alone.largest_mm3 = 0;
+  int tried = 0;
+  for (int n = 0; n < 200; ++n) {
+    const auto draw = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
+    MaterialMesh mesh = filled_pancake({draw(-0.3, 0.5), draw(-0.4, 0.4), draw(-0.3, -0.05)});
+    ASSERT_EQ(testing::inverted_tets(mesh.tets, mesh.points), 0U);
+    const std::size_t crossings = count_crossings_of_labels(mesh, image.label_of);
+    EXPECT_EQ(find_surface_faults(LabelledComplex(mesh, image.label_of), guide).cuts, crossings);
+    if (crossings == 0) {
+      continue;
+    }
+    ++tried;
+    const MendReport report = mend_surfaces(mesh, none, image, steps_alone);
+    EXPECT_EQ(report.cuts_left, 0U);
+    EXPECT_EQ(count_crossings_of_labels(mesh, image.label_of), 0U);
+    EXPECT_EQ(report.tets_relabelled, 0U);
+  }
+  EXPECT_GT(tried, 20);
+}
+
 TEST(MendSurfaces, TipsAcrossAGapNoLongerCut) {
   std::mt19937 random(11);
   for (int n = 0; n < 12; ++n) {
