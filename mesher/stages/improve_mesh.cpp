@@ -255,6 +255,7 @@ class Improver {
   static constexpr double kLongestGrowth = 5;
   static constexpr double kVolumeShare = 0.05;   // that a collapse may take from a material round it
   static constexpr int kSettlings = 10;          // at most
+  static constexpr int kBalances = 6;            // of the volumes in the end, at most
   static constexpr double kLargestLack = 0.004;  // of a volume, after which no more are needed
   static constexpr double kSmallChanges = 60;    // volumes of so many largest changes do not count
   static constexpr double kFewerShare = 0.97;    // a round of decimation that leaves more is the last
@@ -392,6 +393,17 @@ class Improver {
          report_.tets_relabelled > 0 && i < kLastRepairs && repair("repair", goal_, kFarRepair + i) > 0;
          ++i) {
     }
+    for (int i = 0; i < kBalances && (i == 0 || largest_lack() > kLargestLack); ++i) {
+      balance_and_separate();
+    }
+    const bool may_mend = target_.places.is_near && !target_.keep_distances;
+    if (may_mend && (may_have_faults_ || has_lonely_points() || have_labels_crossings())) {
+      timed("mending", [this] { mend(); });
+    }
+  }
+
+  /// What the volumes gain may touch something, and what is drawn apart is missing from the volumes.
+  void balance_and_separate() {
     if (!target_.volumes_mm3.empty()) {
       with_points(hosted_.reach_mm,
                   [this](HostedPoints& hosted) { timed("volumes", [&] { balance(hosted); }); });
@@ -399,10 +411,6 @@ class Improver {
     const double farthest_mm = std::max(hosted_.reach_mm, kFarthestReach * target_.scale_mm);
     with_points(target_.keep_distances ? hosted_.reach_mm : farthest_mm,
                 [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
-    const bool may_mend = target_.places.is_near && !target_.keep_distances;
-    if (may_mend && (may_have_faults_ || has_lonely_points() || have_labels_crossings())) {
-      timed("mending", [this] { mend(); });
-    }
   }
 
   /// True when a point may have no surface vertex of its own material within the limit.
