@@ -278,16 +278,19 @@ class EdgeCollapser {
     return shares_.largest_loss() <= options_.volume_share;
   }
 
-  /// True when a facet that stays turns too far while its vertex goes from one place to another; those with
-  /// `gone` vanish.
+  /// True when `holds(facet, p, q)` for a facet with sides to p and q that stays; those with `gone` vanish.
+  template <typename Condition>
+  [[nodiscard]] bool any_staying(const std::vector<FacetAt>& facets, VertexId gone,
+                                 const Condition& holds) const {
+    return std::any_of(facets.begin(), facets.end(), [&](const FacetAt& f) {
+      return f.first != gone && f.second != gone && holds(f, mesh_.point(f.first), mesh_.point(f.second));
+    });
+  }
+
+  /// True when a facet that stays turns too far while its vertex goes from one place to another.
   [[nodiscard]] bool folds(const std::vector<FacetAt>& facets, const Vec3& from, VertexId gone,
                            const Vec3& to) const {
-    return std::any_of(facets.begin(), facets.end(), [&](const FacetAt& f) {
-      if (f.first == gone || f.second == gone) {
-        return false;
-      }
-      const Vec3& p = mesh_.point(f.first);
-      const Vec3& q = mesh_.point(f.second);
+    return any_staying(facets, gone, [&](const FacetAt&, const Vec3& p, const Vec3& q) {
       const Vec3 old_normal = (p - from).cross(q - from);
       const Vec3 new_normal = (p - to).cross(q - to);
       return !(old_normal.dot(new_normal) > 0.5 * old_normal.norm() * new_normal.norm());
@@ -299,26 +302,22 @@ class EdgeCollapser {
     const Vec3& from = mesh_.point(u);
     const Vec3& to = mesh_.point(v);
     double limit = -1;
+    return any_staying(patch_.facets, v, [&](const FacetAt& f, const Vec3& p, const Vec3& q) {
+      const double after = patch_.facet_deviation(to, p, q, f.inner, f.outer);
+      if (after > patch_.guards.deviation_mm && limit < 0) {
+        limit = largest_deviation(from);
+      }
+      return after > patch_.guards.deviation_mm && after > limit;
+    });
+  }
+
+  [[nodiscard]] double largest_deviation(const Vec3& from) const {
+    double largest = 0;
     for (const FacetAt& f : patch_.facets) {
-      if (f.first == v || f.second == v) {
-        continue;
-      }
-      const double after =
-          patch_.facet_deviation(to, mesh_.point(f.first), mesh_.point(f.second), f.inner, f.outer);
-      if (after <= patch_.guards.deviation_mm) {
-        continue;
-      }
-      if (limit < 0) {
-        for (const FacetAt& g : patch_.facets) {
-          limit = std::max(limit, patch_.facet_deviation(from, mesh_.point(g.first), mesh_.point(g.second),
-                                                         g.inner, g.outer));
-        }
-      }
-      if (after > limit) {
-        return true;
-      }
+      largest = std::max(largest, patch_.facet_deviation(from, mesh_.point(f.first), mesh_.point(f.second),
+                                                         f.inner, f.outer));
     }
-    return false;
+    return largest;
   }
 
   /// Draws u and a neighbour of the same class together at a place between them.
@@ -495,12 +494,7 @@ class EdgeCollapser {
   /// True when a facet that stays gets farther from the boundary than allowed and than it was.
   [[nodiscard]] bool facets_stray(const std::vector<FacetAt>& facets, const Vec3& from, VertexId gone,
                                   const Vec3& to) const {
-    return std::any_of(facets.begin(), facets.end(), [&](const FacetAt& f) {
-      if (f.first == gone || f.second == gone) {
-        return false;
-      }
-      const Vec3& p = mesh_.point(f.first);
-      const Vec3& q = mesh_.point(f.second);
+    return any_staying(facets, gone, [&](const FacetAt& f, const Vec3& p, const Vec3& q) {
       const double after = patch_.facet_deviation(to, p, q, f.inner, f.outer);
       return after > patch_.guards.deviation_mm &&
              after > patch_.facet_deviation(from, p, q, f.inner, f.outer);

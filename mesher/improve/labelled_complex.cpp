@@ -15,6 +15,18 @@ void LabelledComplex::renew_set(VertexId v) {
   }
 }
 
+bool LabelledComplex::is_facet(TetId t, std::size_t n) const {
+  const MaterialId own = material(t);
+  const MaterialId other = across(t, n);
+  if (own == kBackground || other == kBackground) {
+    return own != kBackground;
+  }
+  const auto& nodes = mesh_.tets[t];
+  return t < neighbours_[t][n] && label_of_[own] != label_of_[other] &&
+         std::any_of(kTetFace[n].begin(), kTetFace[n].end(),
+                     [&](std::uint8_t i) { return sets_[nodes[i]].has(kBackground); });
+}
+
 bool LabelledComplex::is_manifold_at(VertexId v, MaterialId material) const {
   const MaterialId label = label_of_[material];
   LinkEdges link;

@@ -25,13 +25,9 @@ class LabelledComplex {
   [[nodiscard]] MaterialId across(TetId t, std::size_t n) const {
     return neighbours_[t][n] == kNoTet ? kBackground : mesh_.materials[neighbours_[t][n]];
   }
-  /// True when the face parts two labels, or a label from the outside, and this is the side it is counted
-  /// from.
-  [[nodiscard]] bool is_facet(TetId t, std::size_t n) const {
-    const MaterialId other = across(t, n);
-    return material(t) != kBackground &&
-           (other == kBackground || (t < neighbours_[t][n] && label_of_[material(t)] != label_of_[other]));
-  }
+  /// True when the face is on the outside, or parts two labels and has a vertex there, and this is the side
+  /// it is counted from. What lies deeper cuts nothing while all tets are positive.
+  [[nodiscard]] bool is_facet(TetId t, std::size_t n) const;
   void give(TetId t, MaterialId material) { mesh_.materials[t] = material; }
 
   void renew_set(VertexId v);

@@ -113,7 +113,7 @@ void FaultMeter::list_vertices_near_points(const std::vector<VertexId>& vertices
 void FaultMeter::list_facets_near(const std::vector<VertexId>& vertices) {
   std::vector<TetId> tets;
   for (const VertexId v : vertices) {
-    if (complex_.set(v).size > 1) {
+    if (complex_.set(v).has(kBackground)) {
       tets.insert(tets.end(), complex_.star(v).begin(), complex_.star(v).end());
     }
   }

@@ -2,7 +2,7 @@
 // can be judged by what it does to all of it.
 //
 // Notation: pinch   a vertex where the surface of a label is no manifold;
-//           facet   a face between two labels, or between a label and the outside: an outer one;
+//           facet   a face on the outside: an outer one, or one between two labels with a vertex there;
 //           cut     two facets that cross or touch where they share no vertex;
 //           fold    two outer facets that share an edge, one within the tet behind the other, as at a gap of
 //                   one tet that is inside out: no facets cut each other there, but tets overlap;
