@@ -11,26 +11,34 @@
 
 namespace cbc3d {
 
-/// The indices below `count` for which is(index), ascending.
-template <typename Is>
-std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
-  constexpr std::size_t kLeastPiece = 4096;
+/// What f(index, found) appends to `found` for the indices below `count`, in their order.
+template <typename T, typename F>
+std::vector<T> collect(std::size_t count, const F& f) {
+  constexpr std::size_t kLeastPiece = 2048;
   const std::size_t pieces = std::clamp<std::size_t>(count / kLeastPiece, 1, 64);
-  std::vector<std::vector<std::uint32_t>> found(pieces);
+  std::vector<std::vector<T>> found(pieces);
 #pragma omp parallel for schedule(dynamic) if (pieces > 1)
   for (std::size_t piece = 0; piece < pieces; ++piece) {
     const std::size_t end = (piece + 1) * count / pieces;
     for (std::size_t i = piece * count / pieces; i < end; ++i) {
-      if (is(i)) {
-        found[piece].push_back(static_cast<std::uint32_t>(i));
-      }
+      f(i, found[piece]);
     }
   }
-  std::vector<std::uint32_t> all = std::move(found[0]);
+  std::vector<T> all = std::move(found[0]);
   for (std::size_t piece = 1; piece < pieces; ++piece) {
     all.insert(all.end(), found[piece].begin(), found[piece].end());
   }
   return all;
+}
+
+/// The indices below `count` for which is(index), ascending.
+template <typename Is>
+std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
+  return collect<std::uint32_t>(count, [&](std::size_t i, std::vector<std::uint32_t>& found) {
+    if (is(i)) {
+      found.push_back(static_cast<std::uint32_t>(i));
+    }
+  });
 }
 
 /// Sorts values of which no two are equal, so that there is but one order.
