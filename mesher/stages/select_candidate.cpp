@@ -19,8 +19,13 @@ class Selector {
     before_ = materials_;
     listed_.assign(materials_.size(), 0);
     in_pass_.assign(materials_.size(), 0);
-    std::vector<Change> changes = collect<Change>(
-        materials_.size(), [&](std::size_t t, auto& found) { add_change(static_cast<TetId>(t), found); });
+    std::vector<Change> changes = collect<Change>(before_.size(), [&](std::size_t t, auto& found) {
+      const MaterialId wanted =
+          wanted_material(static_cast<TetId>(t), [this](TetId n) { return before_[n]; });
+      if (wanted != before_[t]) {
+        found.push_back({static_cast<TetId>(t), wanted});
+      }
+    });
     std::vector<TetId> changed = finish_pass(changes);
     while (!changed.empty()) {
       ++pass_;
@@ -133,16 +138,20 @@ class Selector {
     }
   }
 
-  [[nodiscard]] MaterialId material_across(TetId neighbour, TetId of) const {
-    return neighbour == kNoTet ? kBackground : (neighbour < of ? materials_ : before_)[neighbour];
+  /// What a tet is to be as the pass comes to it.
+  [[nodiscard]] MaterialId wanted_material(TetId t) const {
+    const std::array<const MaterialId*, 2> now = {before_.data(), materials_.data()};
+    return wanted_material(t, [&](TetId n) { return now[n < t ? 1 : 0][n]; });
   }
 
   /// The material with the most faces towards `t`; in a tie the higher rank.
-  [[nodiscard]] MaterialId wanted_material(TetId t) const {
+  template <typename MaterialOf>
+  [[nodiscard]] MaterialId wanted_material(TetId t, const MaterialOf& material_of) const {
     const MaterialId own = before_[t];
     std::array<MaterialId, 4> around{};
     for (std::size_t n = 0; n < 4; ++n) {
-      around[n] = material_across(neighbours_[t][n], t);
+      const TetId across = neighbours_[t][n];
+      around[n] = across == kNoTet ? kBackground : material_of(across);
     }
     if (std::all_of(around.begin(), around.end(), [own](MaterialId m) { return m == own; })) {
       return own;  // as most
