@@ -14,7 +14,7 @@ namespace cbc3d {
 /// What f(index, found) appends to `found` for the indices below `count`, in their order.
 template <typename T, typename F>
 std::vector<T> collect(std::size_t count, const F& f) {
-  constexpr std::size_t kLeastPiece = 2048;
+  constexpr std::size_t kLeastPiece = 1024;
   const std::size_t pieces = std::clamp<std::size_t>(count / kLeastPiece, 1, 64);
   std::vector<std::vector<T>> found(pieces);
 #pragma omp parallel for schedule(dynamic) if (pieces > 1)

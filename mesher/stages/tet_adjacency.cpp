@@ -4,44 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <memory>
+#include <span>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/parallel.hpp"
 
 namespace cbc3d {
 namespace {
 
-using Face = std::array<VertexId, 3>;
-
-Face sorted_face(const std::array<VertexId, 4>& tet, unsigned opposite) {
-  VertexId a = tet[kTetFace[opposite][0]];
-  VertexId b = tet[kTetFace[opposite][1]];
-  VertexId c = tet[kTetFace[opposite][2]];
-  const auto order = [](VertexId& low, VertexId& high) {
-    const VertexId least = std::min(low, high);
-    high = std::max(low, high);
-    low = least;
-  };
-  order(a, b);
-  order(b, c);
-  order(a, b);
-  return {a, b, c};
-}
-
 using Neighbours = std::vector<std::array<TetId, 4>>;
-
-struct FaceEntry {
-  VertexId second, third;      // of the sorted face; the first is the bucket
-  std::uint32_t tet_and_node;  // 4 * tet + node opposite to the face
-
-  [[nodiscard]] std::uint64_t others() const { return std::uint64_t{second} << 32U | third; }
-};
-
-/// Faces of unknown neighbours, bucketed by their smallest vertex: a counting sort, in the order of the tets.
-struct FaceBuckets {
-  std::vector<std::uint32_t> first;
-  std::vector<FaceEntry> faces;
-};
 
 /// Runs f(begin, end) for ranges that the vertices are cut in, one a thread. Each thread fills the rows of
 /// its vertices and passes over all tets for it: reading them again costs less than the scattered writes, of
@@ -56,36 +28,6 @@ void for_vertex_ranges(std::size_t vertex_count, const F& f) {
   }
 }
 
-/// Tets with an unknown neighbour, ascending: in a late round of a refinement few of all.
-std::vector<TetId> tets_to_match(const Neighbours& neighbours) {
-  return indices_where(neighbours.size(), [&](std::size_t t) {
-    const auto& across = neighbours[t];
-    return std::find(across.begin(), across.end(), kUnknownTet) != across.end();
-  });
-}
-
-/// Calls f(face's smallest vertex, tet, node) for the faces of unknown neighbours of the tets `open` whose
-/// smallest vertex is in [begin, end), in order.
-template <typename F>
-void for_each_face(const TetNodes& tets, const Neighbours& neighbours, const std::vector<TetId>& open,
-                   VertexId begin, VertexId end, const F& f) {
-  for (const TetId t : open) {
-    const auto& across = neighbours[t];
-    // The smallest node is in every face but the one opposite to it, whose smallest is the second.
-    const auto& tet = tets[t];
-    const auto [low_a, high_a] = std::minmax(tet[0], tet[1]);
-    const auto [low_b, high_b] = std::minmax(tet[2], tet[3]);
-    const VertexId first = std::min(low_a, low_b);
-    const VertexId second = std::min(std::max(low_a, low_b), first == low_a ? high_a : high_b);
-    for (unsigned n = 0; n < 4; ++n) {
-      const VertexId least = tet[n] == first ? second : first;
-      if (across[n] == kUnknownTet && least >= begin && least < end) {
-        f(least, t, n);
-      }
-    }
-  }
-}
-
 /// Counts in first[i + 1] become the places where the rows begin.
 void sum_up(std::vector<std::uint32_t>& first) {
   for (std::size_t i = 1; i < first.size(); ++i) {
@@ -93,59 +35,184 @@ void sum_up(std::vector<std::uint32_t>& first) {
   }
 }
 
-FaceBuckets bucket_faces(const TetNodes& tets, const Neighbours& neighbours, std::size_t vertex_count) {
-  const std::vector<TetId> open = tets_to_match(neighbours);
-  FaceBuckets buckets;
-  buckets.first.assign(vertex_count + 1, 0);
-  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
-    for_each_face(tets, neighbours, open, begin, end,
-                  [&](VertexId least, TetId, unsigned) { ++buckets.first[least + 1]; });
-  });
-  sum_up(buckets.first);
-  buckets.faces.resize(buckets.first.back());
-  std::vector<std::uint32_t> next(buckets.first.begin(), buckets.first.end() - 1);
-  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
-    for_each_face(tets, neighbours, open, begin, end, [&](VertexId least, TetId t, unsigned n) {
-      const Face face = sorted_face(tets[t], n);
-      buckets.faces[next[least]++] = {face[1], face[2], 4 * t + n};
-    });
-  });
-  return buckets;
-}
+/// Finds the other sides of faces. The tets are cut in blocks and the vertices in ranges; the faces of a
+/// block go to the range of their smallest vertex, and those of a range meet in a small hash table. All of it
+/// is parallel, and which of two tets comes first makes no difference.
+class FaceMatcher {
+ public:
+  FaceMatcher(const TetNodes& tets, std::size_t vertex_count, Neighbours& neighbours)
+      : tets_(tets),
+        vertex_count_(vertex_count),
+        neighbours_(neighbours),
+        open_(std::clamp<std::size_t>(tets.size() / kTetsOfBlock, 1, kMostPieces)),
+        ranges_(std::clamp<std::size_t>(vertex_count / kVerticesOfRange, 1, kMostPieces)),
+        next_(open_.size() * ranges_, 0) {}
 
-/// Pairs equal faces of one bucket. Buckets are small (a few dozen), so each is sorted on its own. What has
-/// no other side is on the outside.
-bool match_bucket(FaceEntry* begin, FaceEntry* end, Neighbours& neighbours) {
-  std::sort(begin, end, [](const FaceEntry& a, const FaceEntry& b) { return a.others() < b.others(); });
-  for (FaceEntry* face = begin; face < end; ++face) {
-    TetId& across = neighbours[face->tet_and_node / 4][face->tet_and_node % 4];
-    if (face + 1 == end || face[1].others() != face[0].others()) {
-      across = kNoTet;
-      continue;
+  /// False when a face belongs to more than two tets.
+  bool run() {
+    for_blocks([this](std::size_t block) { count(block); });
+    number_places();
+    faces_ = std::make_unique_for_overwrite<Face[]>(first_.back());
+    for_blocks([this](std::size_t block) { place(block); });
+    return match();
+  }
+
+ private:
+  struct Face {
+    VertexId least, second, third;
+    std::uint32_t tet_and_node;  // 4 * tet + node opposite to the face
+  };
+  static constexpr std::size_t kTetsOfBlock = 4096, kVerticesOfRange = 512, kMostPieces = 256;
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+  template <typename F>
+  void for_blocks(const F& f) const {
+#pragma omp parallel for schedule(dynamic, 1) if (open_.size() > 1)
+    for (std::size_t block = 0; block < open_.size(); ++block) {
+      f(block);
     }
-    if (face + 2 < end && face[2].others() == face[0].others()) {
+  }
+
+  [[nodiscard]] std::size_t range_of(VertexId v) const {
+    return v * ranges_ / vertex_count_;
+  }
+
+  /// Calls f(face's smallest vertex, node) for the faces of a tet whose neighbours are unknown.
+  template <typename F>
+  void for_each_face(TetId t, const F& f) const {
+    const auto& across = neighbours_[t];
+    // The smallest node is in every face but the one opposite to it, whose smallest is the second.
+    const auto& tet = tets_[t];
+    const auto [low_a, high_a] = std::minmax(tet[0], tet[1]);
+    const auto [low_b, high_b] = std::minmax(tet[2], tet[3]);
+    const VertexId first = std::min(low_a, low_b);
+    const VertexId second = std::min(std::max(low_a, low_b), first == low_a ? high_a : high_b);
+    for (unsigned n = 0; n < 4; ++n) {
+      if (across[n] == kUnknownTet) {
+        f(tet[n] == first ? second : first, n);
+      }
+    }
+  }
+
+  /// Finds the block's tets with an unknown neighbour, in a late round of a refinement few of all, and counts
+  /// their faces.
+  void count(std::size_t block) {
+    std::uint32_t* const counts = next_.data() + block * ranges_;
+    const std::size_t end = (block + 1) * tets_.size() / open_.size();
+    for (std::size_t t = block * tets_.size() / open_.size(); t < end; ++t) {
+      const auto& across = neighbours_[t];
+      if (std::find(across.begin(), across.end(), kUnknownTet) != across.end()) {
+        open_[block].push_back(static_cast<TetId>(t));
+        for_each_face(static_cast<TetId>(t), [&](VertexId least, unsigned) { ++counts[range_of(least)]; });
+      }
+    }
+  }
+
+  void number_places() {
+    first_.assign(ranges_ + 1, 0);
+    std::uint32_t place = 0;
+    for (std::size_t range = 0; range < ranges_; ++range) {
+      for (std::size_t block = 0; block < open_.size(); ++block) {
+        const std::uint32_t faces = next_[block * ranges_ + range];
+        next_[block * ranges_ + range] = place;
+        place += faces;
+      }
+      first_[range + 1] = place;
+    }
+  }
+
+  void place(std::size_t block) {
+    std::uint32_t* const next = next_.data() + block * ranges_;
+    for (const TetId t : open_[block]) {
+      for_each_face(t, [&](VertexId least, unsigned n) {
+        const auto& corner = kTetFace[n];
+        VertexId second = kNoVertex, third = 0;
+        for (const std::uint8_t c : corner) {
+          const VertexId v = tets_[t][c];
+          third = std::max(third, v);
+          second = v == least ? second : std::min(second, v);
+        }
+        faces_[next[range_of(least)]++] = {least, second, third, 4 * t + n};
+      });
+    }
+  }
+
+  bool match() const {
+    std::atomic<bool> conforming = true;
+#pragma omp parallel if (ranges_ > 1)
+    {
+      std::vector<std::uint32_t> slots;
+#pragma omp for schedule(dynamic, 1)
+      for (std::size_t range = 0; range < ranges_; ++range) {
+        if (!match_range({faces_.get() + first_[range], faces_.get() + first_[range + 1]}, slots)) {
+          conforming = false;
+        }
+      }
+    }
+    return conforming;
+  }
+
+  /// What has no other side is on the outside.
+  bool match_range(std::span<Face> faces, std::vector<std::uint32_t>& slots) const {
+    slots.assign(std::bit_ceil(2 * faces.size() + 1), kNone);
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      std::uint32_t& slot = slots[slot_of(faces, f, slots)];
+      if (slot == kNone) {
+        slot = f;
+      } else if (!join(faces[slot], faces[f])) {
+        return false;
+      }
+    }
+    for (const Face& face : faces) {
+      if (face.tet_and_node != kNone) {
+        neighbours_[face.tet_and_node / 4][face.tet_and_node % 4] = kNoTet;
+      }
+    }
+    return true;
+  }
+
+  /// Where the face is that has these nodes, or is to be.
+  static std::size_t slot_of(std::span<const Face> faces, std::uint32_t f,
+                             const std::vector<std::uint32_t>& slots) {
+    const Face& face = faces[f];
+    const std::uint64_t mixed = ((std::uint64_t{face.second} << 32U | face.third) + face.least * kMix) * kMix;
+    std::size_t slot = (mixed >> 32U) & (slots.size() - 1);
+    while (slots[slot] != kNone && !are_same(faces[slots[slot]], face)) {
+      slot = (slot + 1) & (slots.size() - 1);
+    }
+    return slot;
+  }
+
+  static bool are_same(const Face& a, const Face& b) {
+    return a.second == b.second && a.third == b.third && a.least == b.least;
+  }
+
+  /// Makes the tets neighbours; false when the first has one there.
+  bool join(Face& a, Face& b) const {
+    if (a.tet_and_node == kNone) {
       return false;
     }
-    across = face[1].tet_and_node / 4;
-    neighbours[face[1].tet_and_node / 4][face[1].tet_and_node % 4] = face[0].tet_and_node / 4;
-    ++face;
+    neighbours_[a.tet_and_node / 4][a.tet_and_node % 4] = b.tet_and_node / 4;
+    neighbours_[b.tet_and_node / 4][b.tet_and_node % 4] = a.tet_and_node / 4;
+    a.tet_and_node = b.tet_and_node = kNone;
+    return true;
   }
-  return true;
-}
+
+  static constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15ULL;
+  const TetNodes& tets_;
+  std::size_t vertex_count_;
+  Neighbours& neighbours_;
+  std::vector<std::vector<TetId>> open_;  // of each block
+  std::size_t ranges_;
+  std::vector<std::uint32_t> next_;   // block by block, where its next face of each range goes
+  std::vector<std::uint32_t> first_;  // face of each range
+  std::unique_ptr<Face[]> faces_;
+};
 
 }  // namespace
 
 void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count, Neighbours& neighbours) {
-  FaceBuckets buckets = bucket_faces(tets, neighbours, vertex_count);
-  std::atomic<bool> conforming = true;
-#pragma omp parallel for schedule(static, 1024)
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    FaceEntry* const faces = buckets.faces.data();
-    if (!match_bucket(faces + buckets.first[v], faces + buckets.first[v + 1], neighbours)) {
-      conforming = false;
-    }
-  }
-  if (!conforming) {
+  if (!FaceMatcher(tets, vertex_count, neighbours).run()) {
     throw JobError("the tet mesh is not conforming: a face belongs to more than two tets");
   }
 }
