@@ -7,26 +7,31 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace cbc3d {
 
-/// What f(index, found) appends to `found` for the indices below `count`, in their order.
+/// What f(index, add) adds by calls of add(value), at most `most` an index, for the indices below `count`, in
+/// their order.
 template <typename T, typename F>
-std::vector<T> collect(std::size_t count, const F& f) {
+std::vector<T> collect(std::size_t count, std::size_t most, const F& f) {
   constexpr std::size_t kLeastPiece = 1024;
   const std::size_t pieces = std::clamp<std::size_t>(count / kLeastPiece, 1, 64);
-  std::vector<std::vector<T>> found(pieces);
+  const auto found = std::make_unique_for_overwrite<T[]>(most * count);
+  std::vector<std::size_t> ends(pieces);
 #pragma omp parallel for schedule(dynamic) if (pieces > 1)
   for (std::size_t piece = 0; piece < pieces; ++piece) {
-    const std::size_t end = (piece + 1) * count / pieces;
-    for (std::size_t i = piece * count / pieces; i < end; ++i) {
-      f(i, found[piece]);
+    const std::size_t begin = piece * count / pieces, end = (piece + 1) * count / pieces;
+    T* next = found.get() + most * begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      f(i, [&next](const T& value) { *next++ = value; });
     }
+    ends[piece] = static_cast<std::size_t>(next - found.get());
   }
-  std::vector<T> all = std::move(found[0]);
-  for (std::size_t piece = 1; piece < pieces; ++piece) {
-    all.insert(all.end(), found[piece].begin(), found[piece].end());
+  std::vector<T> all;
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    all.insert(all.end(), found.get() + most * (piece * count / pieces), found.get() + ends[piece]);
   }
   return all;
 }
@@ -34,9 +39,9 @@ std::vector<T> collect(std::size_t count, const F& f) {
 /// The indices below `count` for which is(index), ascending.
 template <typename Is>
 std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
-  return collect<std::uint32_t>(count, [&](std::size_t i, std::vector<std::uint32_t>& found) {
+  return collect<std::uint32_t>(count, 1, [&](std::size_t i, const auto& add) {
     if (is(i)) {
-      found.push_back(static_cast<std::uint32_t>(i));
+      add(static_cast<std::uint32_t>(i));
     }
   });
 }

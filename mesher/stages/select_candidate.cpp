@@ -19,19 +19,10 @@ class Selector {
     before_ = materials_;
     listed_.assign(materials_.size(), 0);
     in_pass_.assign(materials_.size(), 0);
-    std::vector<Change> changes = collect<Change>(before_.size(), [&](std::size_t t, auto& found) {
-      const MaterialId wanted =
-          wanted_material(static_cast<TetId>(t), [this](TetId n) { return before_[n]; });
-      if (wanted != before_[t]) {
-        found.push_back({static_cast<TetId>(t), wanted});
-      }
-    });
-    std::vector<TetId> changed = finish_pass(changes);
+    std::vector<TetId> changed = finish_pass(changes_of_all());
     while (!changed.empty()) {
       ++pass_;
-      const std::vector<TetId> tets = tets_to_inspect(changed);
-      changes = collect<Change>(tets.size(), [&](std::size_t i, auto& found) { add_change(tets[i], found); });
-      changed = finish_pass(changes);
+      changed = finish_pass(changes_of(tets_to_inspect(changed)));
     }
     return relabelled_;
   }
@@ -42,10 +33,29 @@ class Selector {
     MaterialId wanted;
   };
 
+  std::vector<Change> changes_of_all() const {
+    return collect<Change>(before_.size(), 1, [this](std::size_t i, const auto& add) {
+      const auto t = static_cast<TetId>(i);
+      const MaterialId wanted = wanted_material(t, [this](TetId n) { return before_[n]; });
+      if (wanted != before_[t]) {
+        add({t, wanted});
+      }
+    });
+  }
+
+  [[nodiscard]] std::vector<Change> changes_of(const std::vector<TetId>& tets) const {
+    return collect<Change>(tets.size(), 1, [&](std::size_t i, const auto& add) {
+      const MaterialId wanted = wanted_material(tets[i]);
+      if (wanted != materials_[tets[i]]) {
+        add({tets[i], wanted});
+      }
+    });
+  }
+
   /// A pass inspects its tets in order, so each sees what those before it have become and what those behind
   /// it were. That outcome is found in parallel: all change by what was, and what comes behind a changed one
   /// is inspected again, until nothing changes. Returns the tets that are other than they were.
-  std::vector<TetId> finish_pass(std::vector<Change>& changes) {
+  std::vector<TetId> finish_pass(std::vector<Change> changes) {
     std::vector<TetId> ever_changed;
     while (!changes.empty()) {
       for (const Change& change : changes) {
@@ -53,9 +63,7 @@ class Selector {
         ever_changed.push_back(change.tet);
       }
       ++list_;
-      const std::vector<TetId> behind = tets_behind(changes);
-      changes =
-          collect<Change>(behind.size(), [&](std::size_t i, auto& found) { add_change(behind[i], found); });
+      changes = changes_of(tets_behind(changes));
     }
     std::vector<TetId> changed;
     for (const TetId t : ever_changed) {
@@ -68,20 +76,13 @@ class Selector {
     return changed;
   }
 
-  void add_change(TetId t, std::vector<Change>& found) const {
-    const MaterialId wanted = wanted_material(t);
-    if (wanted != materials_[t]) {
-      found.push_back({t, wanted});
-    }
-  }
-
   /// Tets of this pass behind those, each once; in any order.
   std::vector<TetId> tets_behind(const std::vector<Change>& changes) {
-    return collect<TetId>(changes.size(), [&](std::size_t i, std::vector<TetId>& found) {
+    return collect<TetId>(changes.size(), 4, [&](std::size_t i, const auto& add) {
       const TetId t = changes[i].tet;
       for (const TetId n : neighbours_[t]) {
         if (n != kNoTet && n > t && in_pass_[n] == pass_ && is_first(listed_[n], list_)) {
-          found.push_back(n);
+          add(n);
         }
       }
     });
@@ -89,14 +90,14 @@ class Selector {
 
   /// A tet that has changed and its neighbours are inspected in the next pass, `pass_`.
   std::vector<TetId> tets_to_inspect(const std::vector<TetId>& changed) {
-    return collect<TetId>(changed.size(), [&](std::size_t i, std::vector<TetId>& found) {
-      const auto add = [&](TetId t) {
+    return collect<TetId>(changed.size(), 5, [&](std::size_t i, const auto& add) {
+      const auto add_once = [&](TetId t) {
         if (t != kNoTet && is_first(in_pass_[t], pass_)) {
-          found.push_back(t);
+          add(t);
         }
       };
-      add(changed[i]);
-      std::for_each(neighbours_[changed[i]].begin(), neighbours_[changed[i]].end(), add);
+      add_once(changed[i]);
+      std::for_each(neighbours_[changed[i]].begin(), neighbours_[changed[i]].end(), add_once);
     });
   }
 

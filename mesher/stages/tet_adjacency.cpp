@@ -42,11 +42,13 @@ class FaceMatcher {
  public:
   FaceMatcher(const TetNodes& tets, std::size_t vertex_count, Neighbours& neighbours)
       : tets_(tets),
-        vertex_count_(vertex_count),
+        shift_(shift_for(vertex_count)),
         neighbours_(neighbours),
-        open_(std::clamp<std::size_t>(tets.size() / kTetsOfBlock, 1, kMostPieces)),
-        ranges_(std::clamp<std::size_t>(vertex_count / kVerticesOfRange, 1, kMostPieces)),
-        next_(open_.size() * ranges_, 0) {}
+        blocks_(std::clamp<std::size_t>(tets.size() / kTetsOfBlock, 1, kMostPieces)),
+        ranges_((vertex_count >> shift_) + 1),
+        open_(std::make_unique_for_overwrite<TetId[]>(tets.size())),
+        open_count_(blocks_),
+        next_(blocks_ * ranges_, 0) {}
 
   /// False when a face belongs to more than two tets.
   bool run() {
@@ -62,57 +64,89 @@ class FaceMatcher {
     VertexId least, second, third;
     std::uint32_t tet_and_node;  // 4 * tet + node opposite to the face
   };
-  static constexpr std::size_t kTetsOfBlock = 4096, kVerticesOfRange = 512, kMostPieces = 256;
+  static constexpr std::size_t kTetsOfBlock = 4096, kMostPieces = 256;
+  static constexpr unsigned kLeastShift = 9;
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
   template <typename F>
   void for_blocks(const F& f) const {
-#pragma omp parallel for schedule(dynamic, 1) if (open_.size() > 1)
-    for (std::size_t block = 0; block < open_.size(); ++block) {
+#pragma omp parallel for schedule(dynamic, 1) if (blocks_ > 1)
+    for (std::size_t block = 0; block < blocks_; ++block) {
       f(block);
     }
   }
 
-  [[nodiscard]] std::size_t range_of(VertexId v) const {
-    return v * ranges_ / vertex_count_;
+  static unsigned shift_for(std::size_t vertex_count) {
+    unsigned shift = kLeastShift;
+    while (vertex_count >> shift >= kMostPieces) {
+      ++shift;
+    }
+    return shift;
   }
 
-  /// Calls f(face's smallest vertex, node) for the faces of a tet whose neighbours are unknown.
+  [[nodiscard]] std::size_t begin_of(std::size_t block) const {
+    return block * tets_.size() / blocks_;
+  }
+
+  /// The nodes of a tet in order, each with its place in the tet as its last two bits.
+  static std::array<std::uint64_t, 4> sorted_nodes(const std::array<VertexId, 4>& tet) {
+    std::array<std::uint64_t, 4> s;
+    for (std::uint64_t n = 0; n < 4; ++n) {
+      s[n] = std::uint64_t{tet[n]} << 2U | n;
+    }
+    const auto order = [&s](std::size_t low, std::size_t high) {
+      const std::uint64_t least = std::min(s[low], s[high]);
+      s[high] = std::max(s[low], s[high]);
+      s[low] = least;
+    };
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
+    return s;
+  }
+
+  /// Calls f(face) for the faces of a tet whose neighbours are unknown.
   template <typename F>
   void for_each_face(TetId t, const F& f) const {
-    const auto& across = neighbours_[t];
-    // The smallest node is in every face but the one opposite to it, whose smallest is the second.
-    const auto& tet = tets_[t];
-    const auto [low_a, high_a] = std::minmax(tet[0], tet[1]);
-    const auto [low_b, high_b] = std::minmax(tet[2], tet[3]);
-    const VertexId first = std::min(low_a, low_b);
-    const VertexId second = std::min(std::max(low_a, low_b), first == low_a ? high_a : high_b);
-    for (unsigned n = 0; n < 4; ++n) {
-      if (across[n] == kUnknownTet) {
-        f(tet[n] == first ? second : first, n);
+    // The face opposite to each of the sorted nodes, by the places of its nodes there.
+    constexpr std::array<std::array<std::uint8_t, 3>, 4> kOthers = {
+        {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+    const std::array<std::uint64_t, 4> sorted = sorted_nodes(tets_[t]);
+    const auto vertex = [&](std::size_t at) { return static_cast<VertexId>(sorted[at] >> 2U); };
+    for (std::size_t at = 0; at < 4; ++at) {
+      const auto n = static_cast<std::uint32_t>(sorted[at] & 3U);
+      if (neighbours_[t][n] == kUnknownTet) {
+        f(Face{vertex(kOthers[at][0]), vertex(kOthers[at][1]), vertex(kOthers[at][2]), 4 * t + n});
       }
     }
+  }
+
+  [[nodiscard]] std::size_t range_of(const Face& face) const {
+    return face.least >> shift_;
   }
 
   /// Finds the block's tets with an unknown neighbour, in a late round of a refinement few of all, and counts
   /// their faces.
   void count(std::size_t block) {
     std::uint32_t* const counts = next_.data() + block * ranges_;
-    const std::size_t end = (block + 1) * tets_.size() / open_.size();
-    for (std::size_t t = block * tets_.size() / open_.size(); t < end; ++t) {
+    TetId* next = open_.get() + begin_of(block);
+    for (auto t = static_cast<TetId>(begin_of(block)); t < begin_of(block + 1); ++t) {
       const auto& across = neighbours_[t];
       if (std::find(across.begin(), across.end(), kUnknownTet) != across.end()) {
-        open_[block].push_back(static_cast<TetId>(t));
-        for_each_face(static_cast<TetId>(t), [&](VertexId least, unsigned) { ++counts[range_of(least)]; });
+        *next++ = t;
+        for_each_face(t, [&](const Face& face) { ++counts[range_of(face)]; });
       }
     }
+    open_count_[block] = static_cast<std::size_t>(next - open_.get()) - begin_of(block);
   }
 
   void number_places() {
     first_.assign(ranges_ + 1, 0);
     std::uint32_t place = 0;
     for (std::size_t range = 0; range < ranges_; ++range) {
-      for (std::size_t block = 0; block < open_.size(); ++block) {
+      for (std::size_t block = 0; block < blocks_; ++block) {
         const std::uint32_t faces = next_[block * ranges_ + range];
         next_[block * ranges_ + range] = place;
         place += faces;
@@ -123,17 +157,9 @@ class FaceMatcher {
 
   void place(std::size_t block) {
     std::uint32_t* const next = next_.data() + block * ranges_;
-    for (const TetId t : open_[block]) {
-      for_each_face(t, [&](VertexId least, unsigned n) {
-        const auto& corner = kTetFace[n];
-        VertexId second = kNoVertex, third = 0;
-        for (const std::uint8_t c : corner) {
-          const VertexId v = tets_[t][c];
-          third = std::max(third, v);
-          second = v == least ? second : std::min(second, v);
-        }
-        faces_[next[range_of(least)]++] = {least, second, third, 4 * t + n};
-      });
+    const TetId* const open = open_.get() + begin_of(block);
+    for (const TetId t : std::span(open, open_count_[block])) {
+      for_each_face(t, [&](const Face& face) { faces_[next[range_of(face)]++] = face; });
     }
   }
 
@@ -200,10 +226,11 @@ class FaceMatcher {
 
   static constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15ULL;
   const TetNodes& tets_;
-  std::size_t vertex_count_;
+  unsigned shift_;  // a vertex without its last bits is its range
   Neighbours& neighbours_;
-  std::vector<std::vector<TetId>> open_;  // of each block
-  std::size_t ranges_;
+  std::size_t blocks_, ranges_;
+  std::unique_ptr<TetId[]> open_;  // block by block, its tets with an unknown neighbour, from its begin on
+  std::vector<std::size_t> open_count_;
   std::vector<std::uint32_t> next_;   // block by block, where its next face of each range goes
   std::vector<std::uint32_t> first_;  // face of each range
   std::unique_ptr<Face[]> faces_;
