@@ -5,12 +5,19 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace cbc3d {
+
+/// Sets a mark to another value; true for the one thread that does so first.
+inline bool is_first(std::uint32_t& mark, std::uint32_t to) {
+  const std::atomic_ref<std::uint32_t> shared(mark);
+  return shared.load(std::memory_order_relaxed) != to && shared.exchange(to, std::memory_order_relaxed) != to;
+}
 
 /// What f(index, add) adds by calls of add(value), at most `most` an index, for the indices below `count`, in
 /// their order.

@@ -1,7 +1,6 @@
 #include "mesher/stages/select_candidate.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 #include "mesher/core/parallel.hpp"
 
@@ -99,13 +98,6 @@ class Selector {
       add_once(changed[i]);
       std::for_each(neighbours_[changed[i]].begin(), neighbours_[changed[i]].end(), add_once);
     });
-  }
-
-  /// Sets the mark; true for the one thread that does so first.
-  static bool is_first(std::uint32_t& mark, std::uint32_t to) {
-    const std::atomic_ref<std::uint32_t> shared(mark);
-    return shared.load(std::memory_order_relaxed) != to &&
-           shared.exchange(to, std::memory_order_relaxed) != to;
   }
 
   /// Background is inspected first, as in the paper, where no label is final yet: a background tet with two
