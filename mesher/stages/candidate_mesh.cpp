@@ -1,5 +1,9 @@
 #include "mesher/stages/candidate_mesh.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include "mesher/stages/red_green.hpp"
 
 namespace cbc3d {
@@ -38,23 +42,45 @@ std::vector<std::array<TetId, 4>> keep_neighbours(const std::vector<std::array<T
 
 }  // namespace
 
+/// The number of the first tet of each red tet, and at last how many there are. Parallel, block by block.
+void LatticeFollower::number_pieces() {
+  constexpr std::size_t kReds = 4096;
+  const std::vector<RedTet>& reds = lattice_.reds;
+  const std::size_t blocks = (reds.size() + kReds - 1) / kReds;
+  std::vector<TetId> next(blocks + 1, 0);
+  first_.resize(reds.size() + 1);
+#pragma omp parallel for schedule(static) if (blocks > 1)
+  for (std::size_t b = 0; b < blocks; ++b) {
+    for (std::size_t r = b * kReds; r < std::min(reds.size(), (b + 1) * kReds); ++r) {
+      next[b + 1] += piece_count(reds[r]);
+    }
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+#pragma omp parallel for schedule(static) if (blocks > 1)
+  for (std::size_t b = 0; b < blocks; ++b) {
+    TetId tet = next[b];
+    for (std::size_t r = b * kReds; r < std::min(reds.size(), (b + 1) * kReds); ++r) {
+      first_[r] = tet;
+      tet += piece_count(reds[r]);
+    }
+  }
+  first_.back() = next.back();
+}
+
 std::vector<TetId> LatticeFollower::renumber() {
   const std::vector<RedTet>& reds = lattice_.reds;
-  const std::vector<TetId> before = first_;
-  const std::size_t known = shapes_.size();
   std::vector<TetId> number(tet_count(), kNoTet);
-  first_.resize(reds.size() + 1);
+  const std::vector<TetId> before = std::exchange(first_, {});
+  number_pieces();
+  const std::size_t known = shapes_.size();
   shapes_.resize(reds.size());
   is_new_.assign(reds.size(), 1);
-  first_[0] = 0;
+#pragma omp parallel for schedule(static, 4096)
   for (std::size_t r = 0; r < reds.size(); ++r) {
-    first_[r + 1] = first_[r] + piece_count(reds[r]);
     const Shape shape = {reds[r].level, reds[r].split};
     if (r < known && shapes_[r] == shape) {
       is_new_[r] = 0;
-      for (TetId t = before[r]; t < before[r + 1]; ++t) {
-        number[t] = first_[r] + (t - before[r]);
-      }
+      std::iota(number.begin() + before[r], number.begin() + before[r + 1], first_[r]);
     }
     shapes_[r] = shape;
   }

@@ -50,6 +50,8 @@ class LatticeFollower {
     bool operator==(const Shape&) const = default;
   };
 
+  void number_pieces();
+
   const Lattice& lattice_;
   std::vector<TetId> first_;
   std::vector<Shape> shapes_;

@@ -283,7 +283,7 @@ bool RedGreenRefiner::sweep() {
 
 /// Acts in order. Many actions are taken in parallel, with the outcome of the order.
 void RedGreenRefiner::act(const std::vector<Action>& actions) {
-  constexpr std::size_t kWorthThreads = 512, kMostTogether = 2048;
+  constexpr std::size_t kWorthThreads = 1024, kMostTogether = 4096;
   for (const Action& action : actions) {
     if (action.is_changed) {
       note_changed(action.red);
