@@ -42,48 +42,47 @@ std::vector<std::array<TetId, 4>> keep_neighbours(const std::vector<std::array<T
 
 }  // namespace
 
-/// The number of the first tet of each red tet, and at last how many there are. Parallel, block by block.
-void LatticeFollower::number_pieces() {
-  constexpr std::size_t kReds = 4096;
+/// Where the numbers of each block of kRedsOfBlock red tets begin, and at last how many there are.
+std::vector<TetId> LatticeFollower::first_of_blocks() const {
   const std::vector<RedTet>& reds = lattice_.reds;
-  const std::size_t blocks = (reds.size() + kReds - 1) / kReds;
-  std::vector<TetId> next(blocks + 1, 0);
-  first_.resize(reds.size() + 1);
-#pragma omp parallel for schedule(static) if (blocks > 1)
-  for (std::size_t b = 0; b < blocks; ++b) {
-    for (std::size_t r = b * kReds; r < std::min(reds.size(), (b + 1) * kReds); ++r) {
-      next[b + 1] += piece_count(reds[r]);
+  std::vector<TetId> first((reds.size() + kRedsOfBlock - 1) / kRedsOfBlock + 1, 0);
+#pragma omp parallel for schedule(static) if (first.size() > 2)
+  for (std::size_t b = 1; b < first.size(); ++b) {
+    TetId pieces = 0;
+    for (std::size_t r = (b - 1) * kRedsOfBlock; r < std::min(reds.size(), b * kRedsOfBlock); ++r) {
+      pieces += piece_count(reds[r]);
     }
+    first[b] = pieces;
   }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-#pragma omp parallel for schedule(static) if (blocks > 1)
-  for (std::size_t b = 0; b < blocks; ++b) {
-    TetId tet = next[b];
-    for (std::size_t r = b * kReds; r < std::min(reds.size(), (b + 1) * kReds); ++r) {
-      first_[r] = tet;
-      tet += piece_count(reds[r]);
-    }
-  }
-  first_.back() = next.back();
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
 }
 
 std::vector<TetId> LatticeFollower::renumber() {
-  const std::vector<RedTet>& reds = lattice_.reds;
   std::vector<TetId> number(tet_count(), kNoTet);
-  const std::vector<TetId> before = std::exchange(first_, {});
-  number_pieces();
-  const std::size_t known = shapes_.size();
-  shapes_.resize(reds.size());
-  is_new_.assign(reds.size(), 1);
-#pragma omp parallel for schedule(static, 4096)
-  for (std::size_t r = 0; r < reds.size(); ++r) {
-    const Shape shape = {reds[r].level, reds[r].split};
-    if (r < known && shapes_[r] == shape) {
-      is_new_[r] = 0;
-      std::iota(number.begin() + before[r], number.begin() + before[r + 1], first_[r]);
+  const std::vector<TetId> first = first_of_blocks(), before = std::exchange(first_, {});
+  const std::size_t count = lattice_.reds.size(), known = shapes_.size();
+  first_.resize(count + 1);
+  shapes_.resize(count);
+  is_new_.assign(count, 1);
+#pragma omp parallel for schedule(static) if (first.size() > 2)
+  for (std::size_t b = 1; b < first.size(); ++b) {
+    TetId next = first[b - 1];
+    for (std::size_t r = (b - 1) * kRedsOfBlock; r < std::min(count, b * kRedsOfBlock); ++r) {
+      const RedTet& red = lattice_.reds[r];
+      const Shape shape = {red.level, red.split};
+      if (r < known && shapes_[r] == shape) {
+        is_new_[r] = 0;
+        for (TetId t = before[r]; t < before[r + 1]; ++t) {
+          number[t] = next + (t - before[r]);
+        }
+      }
+      shapes_[r] = shape;
+      first_[r] = next;
+      next += piece_count(red);
     }
-    shapes_[r] = shape;
   }
+  first_.back() = first.back();
   return number;
 }
 

@@ -50,7 +50,8 @@ class LatticeFollower {
     bool operator==(const Shape&) const = default;
   };
 
-  void number_pieces();
+  static constexpr std::size_t kRedsOfBlock = 4096;
+  [[nodiscard]] std::vector<TetId> first_of_blocks() const;
 
   const Lattice& lattice_;
   std::vector<TetId> first_;

@@ -494,7 +494,8 @@ std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& 
 }
 
 std::uint32_t piece_count(const RedTet& red) {
-  return red.split == 0 ? 1 : std::has_single_bit(red.split) ? 2 : 4;
+  const unsigned all_but_one = red.split & (red.split - 1U);
+  return 1U << ((red.split != 0 ? 1U : 0U) + (all_but_one != 0 ? 1U : 0U));  // without a jump
 }
 
 void write_pieces(const Lattice& lattice, std::size_t red, std::size_t first, LatticeTets& tets) {
