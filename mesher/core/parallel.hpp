@@ -53,6 +53,18 @@ std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
   });
 }
 
+/// Runs f(begin, end) for ranges that `count` rows are cut in, one a thread. To fill rows, each thread passes
+/// over all there is and takes what goes to its rows: reading it again costs less than the scattered writes,
+/// of which every thread has its share.
+template <typename F>
+void for_ranges(std::size_t count, const F& f) {
+  const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    f(part * count / parts, (part + 1) * count / parts);
+  }
+}
+
 /// Sorts values of which no two are equal, so that there is but one order.
 template <typename T>
 void sort_distinct(std::vector<T>& values) {

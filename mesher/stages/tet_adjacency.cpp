@@ -1,7 +1,5 @@
 #include "mesher/stages/tet_adjacency.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -9,24 +7,12 @@
 #include <span>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/parallel.hpp"
 
 namespace cbc3d {
 namespace {
 
 using Neighbours = std::vector<std::array<TetId, 4>>;
-
-/// Runs f(begin, end) for ranges that the vertices are cut in, one a thread. Each thread fills the rows of
-/// its vertices and passes over all tets for it: reading them again costs less than the scattered writes, of
-/// which every thread has its share.
-template <typename F>
-void for_vertex_ranges(std::size_t vertex_count, const F& f) {
-  const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
-#pragma omp parallel for schedule(static, 1)
-  for (std::size_t part = 0; part < parts; ++part) {
-    f(static_cast<VertexId>(part * vertex_count / parts),
-      static_cast<VertexId>((part + 1) * vertex_count / parts));
-  }
-}
 
 /// Counts in first[i + 1] become the places where the rows begin.
 void sum_up(std::vector<std::uint32_t>& first) {
@@ -253,7 +239,7 @@ std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size
 VertexTets tets_of_vertices(const TetNodes& tets, std::size_t vertex_count) {
   VertexTets around;
   around.first.assign(vertex_count + 1, 0);
-  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
+  for_ranges(vertex_count, [&](std::size_t begin, std::size_t end) {
     for (const auto& tet : tets) {
       for (const VertexId v : tet) {
         if (v >= begin && v < end) {
@@ -265,7 +251,7 @@ VertexTets tets_of_vertices(const TetNodes& tets, std::size_t vertex_count) {
   sum_up(around.first);
   around.tets.resize(4 * tets.size());
   std::vector<std::uint32_t> next(around.first.begin(), around.first.end() - 1);
-  for_vertex_ranges(vertex_count, [&](VertexId begin, VertexId end) {
+  for_ranges(vertex_count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = 0; t < tets.size(); ++t) {
       for (const VertexId v : tets[t]) {
         if (v >= begin && v < end) {

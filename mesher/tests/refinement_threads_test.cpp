@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <random>
+#include <utility>
 
 #include "mesher/core/error.hpp"
 #include "mesher/stages/bcc_lattice.hpp"
