@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -170,11 +171,27 @@ class Classifier {
   [[nodiscard]] LabelVoxels voxels() const {
     LabelVoxels voxels(count_);
     voxels.hold(labels_);
-    voxels.visit([this](auto* to) { look_up(to); });
+    voxels.visit([this](auto* to) {
+      if constexpr (sizeof(T) == 1 && sizeof(*to) == 1) {
+        if (values_are_materials()) {
+          return copy(to);
+        }
+      }
+      look_up(to);
+    });
     return voxels;
   }
 
  private:
+  template <typename Voxel>
+  void copy(Voxel* to) const {
+    constexpr std::size_t kPiece = std::size_t{1} << 18U;
+#pragma omp parallel for schedule(static)
+    for (std::size_t begin = 0; begin < count_; begin += kPiece) {
+      std::memcpy(to + begin, values_ + begin, std::min(kPiece, count_ - begin));
+    }
+  }
+
   template <typename Voxel>
   void look_up(Voxel* to) const {
 #pragma omp parallel

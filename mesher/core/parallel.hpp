@@ -5,32 +5,64 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace cbc3d {
 
+/// Sets a mark to another value; true for the one thread that does so first.
+inline bool is_first(std::uint32_t& mark, std::uint32_t to) {
+  const std::atomic_ref<std::uint32_t> shared(mark);
+  return shared.load(std::memory_order_relaxed) != to && shared.exchange(to, std::memory_order_relaxed) != to;
+}
+
+/// What f(index, add) adds by calls of add(value), at most `most` an index, for the indices below `count`, in
+/// their order.
+template <typename T, typename F>
+std::vector<T> collect(std::size_t count, std::size_t most, const F& f) {
+  constexpr std::size_t kLeastPiece = 1024;
+  const std::size_t pieces = std::clamp<std::size_t>(count / kLeastPiece, 1, 64);
+  const auto found = std::make_unique_for_overwrite<T[]>(most * count);
+  std::vector<std::size_t> ends(pieces);
+#pragma omp parallel for schedule(dynamic) if (pieces > 1)
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    const std::size_t begin = piece * count / pieces, end = (piece + 1) * count / pieces;
+    T* next = found.get() + most * begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      f(i, [&next](const T& value) { *next++ = value; });
+    }
+    ends[piece] = static_cast<std::size_t>(next - found.get());
+  }
+  std::vector<T> all;
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    all.insert(all.end(), found.get() + most * (piece * count / pieces), found.get() + ends[piece]);
+  }
+  return all;
+}
+
 /// The indices below `count` for which is(index), ascending.
 template <typename Is>
 std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
-  constexpr std::size_t kLeastPiece = 4096;
-  const std::size_t pieces = std::clamp<std::size_t>(count / kLeastPiece, 1, 64);
-  std::vector<std::vector<std::uint32_t>> found(pieces);
-#pragma omp parallel for schedule(dynamic) if (pieces > 1)
-  for (std::size_t piece = 0; piece < pieces; ++piece) {
-    const std::size_t end = (piece + 1) * count / pieces;
-    for (std::size_t i = piece * count / pieces; i < end; ++i) {
-      if (is(i)) {
-        found[piece].push_back(static_cast<std::uint32_t>(i));
-      }
+  return collect<std::uint32_t>(count, 1, [&](std::size_t i, const auto& add) {
+    if (is(i)) {
+      add(static_cast<std::uint32_t>(i));
     }
+  });
+}
+
+/// Runs f(begin, end) for ranges that `count` rows are cut in, one a thread. To fill rows, each thread passes
+/// over all there is and takes what goes to its rows: reading it again costs less than the scattered writes,
+/// of which every thread has its share.
+template <typename F>
+void for_ranges(std::size_t count, const F& f) {
+  const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    f(part * count / parts, (part + 1) * count / parts);
   }
-  std::vector<std::uint32_t> all = std::move(found[0]);
-  for (std::size_t piece = 1; piece < pieces; ++piece) {
-    all.insert(all.end(), found[piece].begin(), found[piece].end());
-  }
-  return all;
 }
 
 /// Sorts values of which no two are equal, so that there is but one order.

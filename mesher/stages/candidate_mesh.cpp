@@ -1,5 +1,9 @@
 #include "mesher/stages/candidate_mesh.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include "mesher/stages/red_green.hpp"
 
 namespace cbc3d {
@@ -38,26 +42,47 @@ std::vector<std::array<TetId, 4>> keep_neighbours(const std::vector<std::array<T
 
 }  // namespace
 
-std::vector<TetId> LatticeFollower::renumber() {
+/// Where the numbers of each block of kRedsOfBlock red tets begin, and at last how many there are.
+std::vector<TetId> LatticeFollower::first_of_blocks() const {
   const std::vector<RedTet>& reds = lattice_.reds;
-  const std::vector<TetId> before = first_;
-  const std::size_t known = shapes_.size();
-  std::vector<TetId> number(tet_count(), kNoTet);
-  first_.resize(reds.size() + 1);
-  shapes_.resize(reds.size());
-  is_new_.assign(reds.size(), 1);
-  first_[0] = 0;
-  for (std::size_t r = 0; r < reds.size(); ++r) {
-    first_[r + 1] = first_[r] + piece_count(reds[r]);
-    const Shape shape = {reds[r].level, reds[r].split};
-    if (r < known && shapes_[r] == shape) {
-      is_new_[r] = 0;
-      for (TetId t = before[r]; t < before[r + 1]; ++t) {
-        number[t] = first_[r] + (t - before[r]);
-      }
+  std::vector<TetId> first((reds.size() + kRedsOfBlock - 1) / kRedsOfBlock + 1, 0);
+#pragma omp parallel for schedule(static) if (first.size() > 2)
+  for (std::size_t b = 1; b < first.size(); ++b) {
+    TetId pieces = 0;
+    for (std::size_t r = (b - 1) * kRedsOfBlock; r < std::min(reds.size(), b * kRedsOfBlock); ++r) {
+      pieces += piece_count(reds[r]);
     }
-    shapes_[r] = shape;
+    first[b] = pieces;
   }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
+
+std::vector<TetId> LatticeFollower::renumber() {
+  std::vector<TetId> number(tet_count(), kNoTet);
+  const std::vector<TetId> first = first_of_blocks(), before = std::exchange(first_, {});
+  const std::size_t count = lattice_.reds.size(), known = shapes_.size();
+  first_.resize(count + 1);
+  shapes_.resize(count);
+  is_new_.assign(count, 1);
+#pragma omp parallel for schedule(static) if (first.size() > 2)
+  for (std::size_t b = 1; b < first.size(); ++b) {
+    TetId next = first[b - 1];
+    for (std::size_t r = (b - 1) * kRedsOfBlock; r < std::min(count, b * kRedsOfBlock); ++r) {
+      const RedTet& red = lattice_.reds[r];
+      const Shape shape = {red.level, red.split};
+      if (r < known && shapes_[r] == shape) {
+        is_new_[r] = 0;
+        for (TetId t = before[r]; t < before[r + 1]; ++t) {
+          number[t] = next + (t - before[r]);
+        }
+      }
+      shapes_[r] = shape;
+      first_[r] = next;
+      next += piece_count(red);
+    }
+  }
+  first_.back() = first.back();
   return number;
 }
 

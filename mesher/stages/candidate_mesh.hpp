@@ -50,6 +50,9 @@ class LatticeFollower {
     bool operator==(const Shape&) const = default;
   };
 
+  static constexpr std::size_t kRedsOfBlock = 4096;
+  [[nodiscard]] std::vector<TetId> first_of_blocks() const;
+
   const Lattice& lattice_;
   std::vector<TetId> first_;
   std::vector<Shape> shapes_;

@@ -1,5 +1,7 @@
 #include "mesher/stages/lattice.hpp"
 
+#include <atomic>
+
 namespace cbc3d {
 namespace {
 constexpr std::uint64_t kEmpty = ~0ULL;
@@ -11,14 +13,18 @@ std::uint64_t VertexTable::key_of(const LatticePoint& point) {
          static_cast<std::uint64_t>(point[0]);
 }
 
-std::size_t VertexTable::slot_of(std::uint64_t key) const {
+std::size_t VertexTable::first_slot_of(std::uint64_t key) const {
   // Coordinates of coarse vertices are multiples of high powers of two: mix upwards and downwards, twice.
   std::uint64_t h = key ^ (key >> 32U);
   h *= 0x9E3779B97F4A7C15ULL;
   h ^= h >> 29U;
   h *= 0xBF58476D1CE4E5B9ULL;
   h ^= h >> 32U;
-  std::size_t slot = h & (slots_.size() - 1);
+  return h & (slots_.size() - 1);
+}
+
+std::size_t VertexTable::slot_of(std::uint64_t key) const {
+  std::size_t slot = first_slot_of(key);
   while (slots_[slot].key != kEmpty && slots_[slot].key != key) {
     slot = (slot + 1) & (slots_.size() - 1);
   }
@@ -46,8 +52,33 @@ VertexId VertexTable::find_or_insert(const LatticePoint& point, VertexId next) {
   return slot.vertex;
 }
 
+void VertexTable::reserve(std::size_t more) {
+  while (2 * count_ > slots_.size() || 4 * (count_ + more) > 3 * slots_.size()) {
+    grow();
+  }
+}
+
+std::uint32_t VertexTable::claim(const LatticePoint& point, VertexId number) {
+  const std::uint64_t key = key_of(point);
+  std::size_t slot = first_slot_of(key);
+  for (;; slot = (slot + 1) & (slots_.size() - 1)) {
+    const std::atomic_ref<std::uint64_t> there(slots_[slot].key);
+    std::uint64_t found = there.load(std::memory_order_relaxed);
+    if (found == key ||
+        (found == kEmpty &&
+         (there.compare_exchange_strong(found, key, std::memory_order_relaxed) || found == key))) {
+      break;
+    }
+  }
+  const std::atomic_ref<VertexId> vertex(slots_[slot].vertex);
+  VertexId least = vertex.load(std::memory_order_relaxed);
+  while (number < least && !vertex.compare_exchange_weak(least, number, std::memory_order_relaxed)) {
+  }
+  return static_cast<std::uint32_t>(slot);
+}
+
 void VertexTable::grow() {
-  std::vector<Slot> old(slots_.empty() ? kFirstCapacity : 2 * slots_.size(), Slot{kEmpty, 0});
+  std::vector<Slot> old(slots_.empty() ? kFirstCapacity : 2 * slots_.size(), Slot{kEmpty, kNoVertex});
   old.swap(slots_);
   for (const Slot& slot : old) {
     if (slot.key != kEmpty) {

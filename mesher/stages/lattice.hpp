@@ -57,12 +57,22 @@ class VertexTable {
   /// The number of the vertex at `point`, which becomes `next` if there was none.
   VertexId find_or_insert(const LatticePoint& point, VertexId next);
 
+  /// Many threads insert together: each claims the slots of its points, where the smallest number asked for
+  /// stays, and when all have done so gives those that it won their final numbers. `reserve` comes before,
+  /// for the most points that can be new, and `inserted` when it is known how many are.
+  void reserve(std::size_t more);
+  std::uint32_t claim(const LatticePoint& point, VertexId number);
+  [[nodiscard]] VertexId vertex_in(std::uint32_t slot) const { return slots_[slot].vertex; }
+  void set_vertex(std::uint32_t slot, VertexId vertex) { slots_[slot].vertex = vertex; }
+  void inserted(std::size_t count) { count_ += count; }
+
  private:
   struct Slot {
     std::uint64_t key;
     VertexId vertex;
   };
   static std::uint64_t key_of(const LatticePoint& point);
+  [[nodiscard]] std::size_t first_slot_of(std::uint64_t key) const;
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const;
   void grow();
 

@@ -4,17 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesher/core/parallel.hpp"
 #include "mesher/stages/cell_quality.hpp"
 
 namespace cbc3d {
 namespace {
 
 constexpr int kHalvings = 4;
-
-void sort_unique(std::vector<std::uint32_t>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 }  // namespace
 
@@ -52,18 +48,26 @@ bool QualityControl::fails(CellId cell, const std::vector<Vec3>& before,
   return now < 0 && now < margin(cell, before);
 }
 
-template <typename CellOf>
-std::vector<CellId> QualityControl::failing_among(std::size_t count, const CellOf& cell_of,
-                                                  const std::vector<Vec3>& before,
-                                                  const std::vector<Vec3>& after) const {
-  constexpr std::size_t kChunk = 2048;
-  std::vector<std::vector<CellId>> chunks((count + kChunk - 1) / kChunk);
-#pragma omp parallel for schedule(dynamic, 1)
+std::vector<CellId> QualityControl::failing(const std::vector<Vec3>& before,
+                                            const std::vector<Vec3>& after) const {
+  return indices_where(mesh_.cell_count(),
+                       [&](std::size_t c) { return fails(static_cast<CellId>(c), before, after); });
+}
+
+std::vector<CellId> QualityControl::failing_around(const std::vector<VertexId>& vertices,
+                                                   const std::vector<Vec3>& before,
+                                                   const std::vector<Vec3>& after,
+                                                   std::vector<std::uint32_t>& seen,
+                                                   std::uint32_t round) const {
+  constexpr std::size_t kChunk = 128;
+  std::vector<std::vector<CellId>> chunks((vertices.size() + kChunk - 1) / kChunk);
+#pragma omp parallel for schedule(dynamic, 1) if (chunks.size() > 1)
   for (std::size_t c = 0; c < chunks.size(); ++c) {
-    for (std::size_t n = c * kChunk; n < std::min(count, (c + 1) * kChunk); ++n) {
-      const CellId cell = cell_of(n);
-      if (fails(cell, before, after)) {
-        chunks[c].push_back(cell);
+    for (std::size_t n = c * kChunk; n < std::min(vertices.size(), (c + 1) * kChunk); ++n) {
+      for (const CellId cell : around_.of(vertices[n])) {
+        if (is_first(seen[cell], round) && fails(cell, before, after)) {
+          chunks[c].push_back(cell);
+        }
       }
     }
   }
@@ -74,36 +78,28 @@ std::vector<CellId> QualityControl::failing_among(std::size_t count, const CellO
   return all;
 }
 
-std::vector<CellId> QualityControl::failing(const std::vector<Vec3>& before,
-                                            const std::vector<Vec3>& after) const {
-  return failing_among(
-      mesh_.cell_count(), [](std::size_t n) { return static_cast<CellId>(n); }, before, after);
-}
-
 std::size_t QualityControl::hold_back(const std::vector<Vec3>& before, std::vector<CellId> failing,
                                       std::vector<Vec3>& displacement, std::vector<Vec3>& after) const {
   std::vector<std::uint8_t> halvings(before.size(), 0);
-  std::vector<VertexId> vertices;
-  std::vector<CellId> cells;
+  std::vector<std::uint32_t> vertex_seen(before.size(), 0), cell_seen(mesh_.cell_count(), 0);
   std::size_t held = 0;
-  while (!failing.empty()) {
-    vertices.clear();
-    for (const CellId c : failing) {
-      const auto nodes = mesh_.nodes_of(c);
-      vertices.insert(vertices.end(), nodes.begin(), nodes.end());
-    }
-    sort_unique(vertices);
-    cells.clear();
+  for (std::uint32_t round = 1; !failing.empty(); ++round) {
+    const std::vector<VertexId> vertices =
+        collect<VertexId>(failing.size(), 8, [&](std::size_t i, const auto& add) {
+          for (const VertexId v : mesh_.nodes_of(failing[i])) {
+            if (is_first(vertex_seen[v], round)) {
+              add(v);
+            }
+          }
+        });
+#pragma omp parallel for schedule(static) reduction(+ : held) if (vertices.size() > 4096)
     for (const VertexId v : vertices) {
       held += halvings[v] == 0 ? 1 : 0;
       halvings[v] = static_cast<std::uint8_t>(std::min(halvings[v] + 1, kHalvings + 1));
       displacement[v] *= halvings[v] <= kHalvings ? 0.5 : 0.0;
       after[v] = before[v] + displacement[v];
-      cells.insert(cells.end(), around_.of(v).begin(), around_.of(v).end());
     }
-    sort_unique(cells);
-    failing = failing_among(
-        cells.size(), [&](std::size_t n) { return cells[n]; }, before, after);
+    failing = failing_around(vertices, before, after, cell_seen, round);
   }
   return held;
 }

@@ -31,11 +31,13 @@ class QualityControl {
 
  private:
   [[nodiscard]] double margin(CellId cell, const std::vector<Vec3>& points) const;
-  /// The failing ones of cell_of(0) ... cell_of(count - 1), in that order.
-  template <typename CellOf>
-  [[nodiscard]] std::vector<CellId> failing_among(std::size_t count, const CellOf& cell_of,
-                                                  const std::vector<Vec3>& before,
-                                                  const std::vector<Vec3>& after) const;
+  /// Those of the cells round these vertices, each once; in any order. `seen`: one mark a cell, set to
+  /// `round`.
+  [[nodiscard]] std::vector<CellId> failing_around(const std::vector<VertexId>& vertices,
+                                                   const std::vector<Vec3>& before,
+                                                   const std::vector<Vec3>& after,
+                                                   std::vector<std::uint32_t>& seen,
+                                                   std::uint32_t round) const;
   [[nodiscard]] bool fails(CellId cell, const std::vector<Vec3>& before,
                            const std::vector<Vec3>& after) const;
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
+#include <memory>
 #include <utility>
 
 #include "mesher/core/parallel.hpp"
@@ -29,6 +31,28 @@ VertexId middle_of(const Lattice& lattice, VertexId a, VertexId b, int level) {
     }
   }
   return lattice.table.find(midpoint(p, q));
+}
+
+constexpr std::uint8_t kAllEdges = 0x3F;
+
+/// Calls f(e) for the edges of a bit set, ascending.
+template <typename F>
+void for_each_edge(unsigned edges, const F& f) {
+  for (; edges != 0; edges &= edges - 1) {
+    f(static_cast<std::size_t>(std::countr_zero(edges)));
+  }
+}
+
+LatticePoint middle_point(const Lattice& lattice, const RedTet& red, std::size_t edge) {
+  return midpoint(lattice.points[red.nodes[kRedEdge[edge][0]]], lattice.points[red.nodes[kRedEdge[edge][1]]]);
+}
+
+/// Several threads may raise the same value.
+void raise(std::int8_t& value, std::int8_t to) {
+  const std::atomic_ref<std::int8_t> shared(value);
+  std::int8_t now = shared.load(std::memory_order_relaxed);
+  while (now < to && !shared.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
+  }
 }
 
 /// How a red tet stands among its neighbours.
@@ -164,6 +188,14 @@ struct RedGreenRefiner::Demand {
   std::uint8_t split = 0;  ///< the edges that are split as it is
 };
 
+/// A demand that a red tet meets.
+struct RedGreenRefiner::Action {
+  std::uint32_t red = 0;
+  std::uint8_t edges = 0;   ///< to be split
+  bool splits = false;      ///< the tet itself
+  bool is_changed = false;  ///< its split edges are others than before, and near_ is to know
+};
+
 RedGreenRefiner::Demand RedGreenRefiner::demand_of(const RedTet& red) const {
   const Pattern pattern = pattern_of(lattice_, red);
   const unsigned split = pattern.split;
@@ -192,14 +224,13 @@ RedGreenRefiner::Demand RedGreenRefiner::demand_of(const RedTet& red) const {
 }
 
 std::size_t RedGreenRefiner::refine(const std::vector<std::uint8_t>& marked) {
-  const std::size_t count = lattice_.reds.size();
   split_count_ = 0;
   ++sweep_;
-  for (std::size_t t = 0; t < count; ++t) {
+  act(collect<Action>(lattice_.reds.size(), 1, [&](std::size_t t, const auto& add) {
     if (marked[t] != 0 && lattice_.reds[t].level < lattice_.frame.max_level) {
-      split_red(t);
+      add({static_cast<std::uint32_t>(t), kAllEdges, true, false});
     }
-  }
+  }));
   for (bool changed = split_count_ > 0; changed;) {
     ++sweep_;
     just_touched_.swap(touched_);
@@ -236,16 +267,124 @@ bool RedGreenRefiner::is_touched_inside(const RedTet& red, unsigned face) const 
 
 bool RedGreenRefiner::sweep() {
   const std::vector<std::uint32_t> concerned = concerned_reds();
-  std::vector<Demand> demands(concerned.size());
-#pragma omp parallel for schedule(dynamic, 512) if (concerned.size() > 2048)
-  for (std::size_t c = 0; c < concerned.size(); ++c) {
-    demands[c] = demand_of(lattice_.reds[concerned[c]]);
+  const std::vector<Action> actions =
+      collect<Action>(concerned.size(), 1, [&](std::size_t c, const auto& add) {
+        RedTet& red = lattice_.reds[concerned[c]];
+        const Demand demand = demand_of(red);
+        const bool is_changed = near_.is_built() && red.split != demand.split;
+        red.split = demand.split;
+        if (demand.red || demand.extra != 0 || is_changed) {
+          add({concerned[c], demand.red ? kAllEdges : demand.extra, demand.red, is_changed});
+        }
+      });
+  act(actions);
+  return std::any_of(actions.begin(), actions.end(), [](const Action& action) { return action.edges != 0; });
+}
+
+/// Acts in order. Many actions are taken in parallel, with the outcome of the order.
+void RedGreenRefiner::act(const std::vector<Action>& actions) {
+  constexpr std::size_t kWorthThreads = 1024, kMostTogether = 4096;
+  for (const Action& action : actions) {
+    if (action.is_changed) {
+      note_changed(action.red);
+    }
   }
-  bool any = false;
-  for (std::size_t c = 0; c < concerned.size(); ++c) {
-    any = meet(concerned[c], demands[c]) || any;
+  if (actions.size() >= kWorthThreads && omp_get_max_threads() > 1) {
+    for (std::span<const Action> left = actions; !left.empty();) {
+      const std::size_t taken = std::min(left.size(), kMostTogether);
+      act_together(left.first(taken));
+      left = left.subspan(taken);
+    }
+    return;
   }
-  return any;
+  for (const Action& action : actions) {
+    if (action.splits) {
+      split_red(action.red);
+    } else {
+      split_edges(lattice_.reds[action.red], action.edges);
+    }
+  }
+}
+
+/// A midpoint that several actions ask for, and nobody before, becomes the vertex of the first of them.
+void RedGreenRefiner::act_together(std::span<const Action> actions) {
+  const auto slots = std::make_unique_for_overwrite<std::uint32_t[]>(6 * actions.size());
+  const auto known = static_cast<VertexId>(lattice_.points.size());
+  lattice_.table.reserve(6 * actions.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t a = 0; a < actions.size(); ++a) {
+    for_each_edge(actions[a].edges, [&](std::size_t e) {
+      const LatticePoint middle = middle_point(lattice_, lattice_.reds[actions[a].red], e);
+      slots[6 * a + e] = lattice_.table.claim(middle, static_cast<VertexId>(known + 6 * a + e));
+    });
+  }
+  split_claimed_edges(actions, slots.get());
+  split_claimed_reds(actions, slots.get());
+}
+
+/// Makes the vertices of the slots that were claimed; each slot still has the number it was claimed with.
+void RedGreenRefiner::split_claimed_edges(std::span<const Action> actions, const std::uint32_t* slots) {
+  VertexTable& table = lattice_.table;
+  const std::size_t known = lattice_.points.size();
+  const std::vector<std::uint32_t> won =
+      collect<std::uint32_t>(actions.size(), 6, [&](std::size_t a, const auto& add) {
+        for_each_edge(actions[a].edges, [&](std::size_t e) {
+          if (table.vertex_in(slots[6 * a + e]) == known + 6 * a + e) {
+            add(static_cast<std::uint32_t>(6 * a + e));
+          }
+        });
+      });
+  table.inserted(won.size());
+  lattice_.points.resize(known + won.size());
+  lattice_.split_below.resize(known + won.size(), 0);
+  last_touched_.resize(known + won.size(), 0);
+  const auto touched = collect<VertexId>(won.size(), 3, [&](std::size_t w, const auto& add) {
+    const RedTet& red = lattice_.reds[actions[won[w] / 6].red];
+    const std::size_t e = won[w] % 6;
+    const auto vertex = static_cast<VertexId>(known + w);
+    lattice_.points[vertex] = middle_point(lattice_, red, e);
+    table.set_vertex(slots[won[w]], vertex);
+    for (const VertexId v : {vertex, red.nodes[kRedEdge[e][0]], red.nodes[kRedEdge[e][1]]}) {
+      if (v != vertex) {
+        raise(lattice_.split_below[v], static_cast<std::int8_t>(red.level + 1));
+      }
+      if (is_first(last_touched_[v], sweep_)) {
+        add(v);
+      }
+    }
+  });
+  touched_.insert(touched_.end(), touched.begin(), touched.end());
+}
+
+void RedGreenRefiner::split_claimed_reds(std::span<const Action> actions, const std::uint32_t* slots) {
+  std::vector<std::size_t> others(actions.size() + 1, lattice_.reds.size());  // where further children go
+  for (std::size_t a = 0; a < actions.size(); ++a) {
+    others[a + 1] = others[a] + (actions[a].splits ? 7 : 0);
+  }
+  const std::size_t known = others[0];
+  lattice_.reds.resize(others.back());
+  const auto touched = collect<VertexId>(actions.size(), 6, [&](std::size_t a, const auto& add) {
+    if (actions[a].splits) {
+      std::array<VertexId, 6> middles;
+      for (std::size_t e = 0; e < 6; ++e) {
+        middles[e] = lattice_.table.vertex_in(slots[6 * a + e]);
+        if (is_first(last_touched_[middles[e]], sweep_)) {
+          add(middles[e]);
+        }
+      }
+      write_children(actions[a].red, middles, others[a]);
+    }
+  });
+  touched_.insert(touched_.end(), touched.begin(), touched.end());
+  if (near_.is_built()) {
+    std::for_each(actions.begin(), actions.end(), [this](const Action& action) {
+      if (action.splits) note_changed(action.red);
+    });
+    for (std::size_t r = known; r < lattice_.reds.size(); ++r) {
+      note_changed(r);
+    }
+  }
+  split_count_ += (lattice_.reds.size() - known) / 7;
 }
 
 /// What the last sweep can have touched, ascending. Many sweeps touch little: then it is looked up.
@@ -280,21 +419,6 @@ void RedGreenRefiner::note_changed(std::size_t red) {
   }
 }
 
-/// True when something was split for it.
-bool RedGreenRefiner::meet(std::uint32_t t, const Demand& demand) {
-  RedTet& red = lattice_.reds[t];
-  if (red.split != demand.split) {
-    red.split = demand.split;
-    note_changed(t);
-  }
-  if (demand.red) {
-    split_red(t);
-  } else if (demand.extra != 0) {
-    split_edges(red, demand.extra);
-  }
-  return demand.red || demand.extra != 0;
-}
-
 void RedGreenRefiner::touch(VertexId v) {
   if (last_touched_[v] != sweep_) {
     last_touched_[v] = sweep_;
@@ -318,24 +442,36 @@ VertexId RedGreenRefiner::split_edge(VertexId a, VertexId b, int level) {
 }
 
 void RedGreenRefiner::split_edges(const RedTet& red, unsigned edges) {
-  for (unsigned e = 0; e < 6; ++e) {
-    if ((edges >> e & 1U) != 0) {
-      split_edge(red.nodes[kRedEdge[e][0]], red.nodes[kRedEdge[e][1]], red.level);
-    }
-  }
+  for_each_edge(edges, [&](std::size_t e) {
+    split_edge(red.nodes[kRedEdge[e][0]], red.nodes[kRedEdge[e][1]], red.level);
+  });
 }
 
-/// Splits the tet at `index` in eight; the first child takes its place, the others go to the end. All
-/// children have a midpoint among their nodes, which is touched, so the next sweep looks at them.
+/// Splits the tet at `index` in eight. All children have a midpoint among their nodes, which is touched, so
+/// the next sweep looks at them.
 void RedGreenRefiner::split_red(std::size_t index) {
   const RedTet red = lattice_.reds[index];
-  std::array<VertexId, 6> m;
+  std::array<VertexId, 6> middles;
   for (unsigned e = 0; e < 6; ++e) {
-    m[e] = split_edge(red.nodes[kRedEdge[e][0]], red.nodes[kRedEdge[e][1]], red.level);
-    touch(m[e]);
+    middles[e] = split_edge(red.nodes[kRedEdge[e][0]], red.nodes[kRedEdge[e][1]], red.level);
+    touch(middles[e]);
   }
+  const std::size_t others = lattice_.reds.size();
+  lattice_.reds.resize(others + 7);
+  write_children(index, middles, others);
+  note_changed(index);
+  for (std::size_t r = others; r < others + 7; ++r) {
+    note_changed(r);
+  }
+  ++split_count_;
+}
+
+/// The first child takes its parent's place, the others go to `others` and what follows.
+void RedGreenRefiner::write_children(std::size_t index, const std::array<VertexId, 6>& middles,
+                                     std::size_t others) {
+  const RedTet red = lattice_.reds[index];
   const auto& [a, b, c, d] = red.nodes;
-  const VertexId ab = m[0], ac = m[1], ad = m[2], bc = m[3], bd = m[4], cd = m[5];
+  const auto& [ab, ac, ad, bc, bd, cd] = middles;
   // The shortest inner diagonal joins the midpoints of the two long edges, ab and cd. Every child is
   // written so that its long edges are again 0-1 and 2-3 and its orientation is the parent's.
   const std::array<std::array<VertexId, 4>, 8> children = {{{a, ab, ac, ad},
@@ -348,12 +484,9 @@ void RedGreenRefiner::split_red(std::size_t index) {
                                                             {ab, cd, ad, bd}}};
   const auto level = static_cast<std::int8_t>(red.level + 1);
   lattice_.reds[index] = {children[0], level, 0};
-  note_changed(index);
   for (std::size_t n = 1; n < children.size(); ++n) {
-    lattice_.reds.push_back({children[n], level, 0});
-    note_changed(lattice_.reds.size() - 1);
+    lattice_.reds[others + n - 1] = {children[n], level, 0};
   }
-  ++split_count_;
 }
 
 std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& marked) {
@@ -361,7 +494,8 @@ std::size_t refine_red_green(Lattice& lattice, const std::vector<std::uint8_t>& 
 }
 
 std::uint32_t piece_count(const RedTet& red) {
-  return red.split == 0 ? 1 : std::has_single_bit(red.split) ? 2 : 4;
+  const unsigned all_but_one = red.split & (red.split - 1U);
+  return 1U << ((red.split != 0 ? 1U : 0U) + (all_but_one != 0 ? 1U : 0U));  // without a jump
 }
 
 void write_pieces(const Lattice& lattice, std::size_t red, std::size_t first, LatticeTets& tets) {

@@ -1,7 +1,9 @@
 // Red-green subdivision of the lattice (paper, figure "Red-Green templates for lattice subdivision").
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesher/stages/lattice.hpp"
@@ -30,12 +32,17 @@ class RedGreenRefiner {
 
  private:
   struct Demand;
+  struct Action;
   bool sweep();
   [[nodiscard]] std::vector<std::uint32_t> concerned_reds();
   [[nodiscard]] bool is_concerned(const RedTet& red) const;
   [[nodiscard]] bool is_touched_inside(const RedTet& red, unsigned face) const;
   [[nodiscard]] Demand demand_of(const RedTet& red) const;
-  bool meet(std::uint32_t t, const Demand& demand);
+  void act(const std::vector<Action>& actions);
+  void act_together(std::span<const Action> actions);
+  void split_claimed_edges(std::span<const Action> actions, const std::uint32_t* slots);
+  void split_claimed_reds(std::span<const Action> actions, const std::uint32_t* slots);
+  void write_children(std::size_t index, const std::array<VertexId, 6>& middles, std::size_t others);
   void note_changed(std::size_t red);
   void touch(VertexId v);
   VertexId split_edge(VertexId a, VertexId b, int level);

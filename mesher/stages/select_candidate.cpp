@@ -1,7 +1,8 @@
 #include "mesher/stages/select_candidate.hpp"
 
 #include <algorithm>
-#include <iterator>
+
+#include "mesher/core/parallel.hpp"
 
 namespace cbc3d {
 namespace {
@@ -14,53 +15,89 @@ class Selector {
 
   std::size_t run() {
     fill_notches();
-    inspect_all();
-    std::vector<TetId> queue;
-    while (!next_.empty()) {
-      std::sort(next_.begin(), next_.end());
-      next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
-      queue.swap(next_);
-      next_.clear();
-      for (const TetId t : queue) {
-        inspect(t);
-      }
+    before_ = materials_;
+    listed_.assign(materials_.size(), 0);
+    in_pass_.assign(materials_.size(), 0);
+    std::vector<TetId> changed = finish_pass(changes_of_all());
+    while (!changed.empty()) {
+      ++pass_;
+      changed = finish_pass(changes_of(tets_to_inspect(changed)));
     }
     return relabelled_;
   }
 
  private:
-  /// Inspects all tets in order. In parallel those are found before that have reason to change as things are;
-  /// of the others only those are looked at of which a neighbour has changed meanwhile.
-  void inspect_all() {
-    std::vector<std::uint8_t> open(materials_.size());
-#pragma omp parallel for schedule(static)
-    for (std::size_t t = 0; t < open.size(); ++t) {
-      open[t] = wanted_material(static_cast<TetId>(t)) != materials_[t] ? 1 : 0;
-    }
-    for (std::size_t t = 0; t < open.size(); ++t) {
-      if (open[t] != 0 && inspect(static_cast<TetId>(t))) {
-        for (const TetId n : neighbours_[t]) {
-          if (n != kNoTet) {
-            open[n] = 1;
-          }
-        }
+  struct Change {
+    TetId tet;
+    MaterialId wanted;
+  };
+
+  std::vector<Change> changes_of_all() const {
+    return collect<Change>(before_.size(), 1, [this](std::size_t i, const auto& add) {
+      const auto t = static_cast<TetId>(i);
+      const MaterialId wanted = wanted_material(t, [this](TetId n) { return before_[n]; });
+      if (wanted != before_[t]) {
+        add({t, wanted});
       }
-    }
+    });
   }
 
-  /// Gives a tet the material it is to have; true when that is another one, and then it and its neighbours
-  /// are to be inspected again.
-  bool inspect(TetId t) {
-    const MaterialId wanted = wanted_material(t);
-    if (wanted == materials_[t]) {
-      return false;
+  [[nodiscard]] std::vector<Change> changes_of(const std::vector<TetId>& tets) const {
+    return collect<Change>(tets.size(), 1, [&](std::size_t i, const auto& add) {
+      const MaterialId wanted = wanted_material(tets[i]);
+      if (wanted != materials_[tets[i]]) {
+        add({tets[i], wanted});
+      }
+    });
+  }
+
+  /// A pass inspects its tets in order, so each sees what those before it have become and what those behind
+  /// it were. That outcome is found in parallel: all change by what was, and what comes behind a changed one
+  /// is inspected again, until nothing changes. Returns the tets that are other than they were.
+  std::vector<TetId> finish_pass(std::vector<Change> changes) {
+    std::vector<TetId> ever_changed;
+    while (!changes.empty()) {
+      for (const Change& change : changes) {
+        materials_[change.tet] = change.wanted;
+        ever_changed.push_back(change.tet);
+      }
+      ++list_;
+      changes = changes_of(tets_behind(changes));
     }
-    materials_[t] = wanted;
-    ++relabelled_;
-    next_.push_back(t);
-    std::copy_if(neighbours_[t].begin(), neighbours_[t].end(), std::back_inserter(next_),
-                 [](TetId n) { return n != kNoTet; });
-    return true;
+    std::vector<TetId> changed;
+    for (const TetId t : ever_changed) {
+      if (before_[t] != materials_[t]) {
+        before_[t] = materials_[t];
+        changed.push_back(t);
+      }
+    }
+    relabelled_ += changed.size();
+    return changed;
+  }
+
+  /// Tets of this pass behind those, each once; in any order.
+  std::vector<TetId> tets_behind(const std::vector<Change>& changes) {
+    return collect<TetId>(changes.size(), 4, [&](std::size_t i, const auto& add) {
+      const TetId t = changes[i].tet;
+      for (const TetId n : neighbours_[t]) {
+        if (n != kNoTet && n > t && in_pass_[n] == pass_ && is_first(listed_[n], list_)) {
+          add(n);
+        }
+      }
+    });
+  }
+
+  /// A tet that has changed and its neighbours are inspected in the next pass, `pass_`.
+  std::vector<TetId> tets_to_inspect(const std::vector<TetId>& changed) {
+    return collect<TetId>(changed.size(), 5, [&](std::size_t i, const auto& add) {
+      const auto add_once = [&](TetId t) {
+        if (t != kNoTet && is_first(in_pass_[t], pass_)) {
+          add(t);
+        }
+      };
+      add_once(changed[i]);
+      std::for_each(neighbours_[changed[i]].begin(), neighbours_[changed[i]].end(), add_once);
+    });
   }
 
   /// Background is inspected first, as in the paper, where no label is final yet: a background tet with two
@@ -94,16 +131,20 @@ class Selector {
     }
   }
 
-  [[nodiscard]] MaterialId material_across(TetId neighbour) const {
-    return neighbour == kNoTet ? kBackground : materials_[neighbour];
+  /// What a tet is to be as the pass comes to it.
+  [[nodiscard]] MaterialId wanted_material(TetId t) const {
+    const std::array<const MaterialId*, 2> now = {before_.data(), materials_.data()};
+    return wanted_material(t, [&](TetId n) { return now[n < t ? 1 : 0][n]; });
   }
 
   /// The material with the most faces towards `t`; in a tie the higher rank.
-  [[nodiscard]] MaterialId wanted_material(TetId t) const {
-    const MaterialId own = materials_[t];
+  template <typename MaterialOf>
+  [[nodiscard]] MaterialId wanted_material(TetId t, const MaterialOf& material_of) const {
+    const MaterialId own = before_[t];
     std::array<MaterialId, 4> around{};
     for (std::size_t n = 0; n < 4; ++n) {
-      around[n] = material_across(neighbours_[t][n]);
+      const TetId across = neighbours_[t][n];
+      around[n] = across == kNoTet ? kBackground : material_of(across);
     }
     if (std::all_of(around.begin(), around.end(), [own](MaterialId m) { return m == own; })) {
       return own;  // as most
@@ -128,7 +169,10 @@ class Selector {
   const std::vector<std::array<TetId, 4>>& neighbours_;
   const std::vector<std::uint32_t>& rank_;
   std::vector<MaterialId>& materials_;
-  std::vector<TetId> next_;
+  std::vector<MaterialId> before_;      // the pass
+  std::vector<std::uint32_t> in_pass_;  // the last pass that inspects a tet
+  std::vector<std::uint32_t> listed_;   // the last list of tets behind changed ones that has it
+  std::uint32_t pass_ = 0, list_ = 0;
   std::size_t relabelled_ = 0;
 };
 

@@ -34,6 +34,39 @@ TEST(Parallel, IndicesAreAscendingAndComplete) {
   }
 }
 
+TEST(Parallel, CollectsInOrder) {
+  for (const std::size_t count : {0, 1, 2047, 2048, 100001}) {
+    std::vector<std::uint64_t> wanted;
+    for (std::size_t i = 0; i < count; ++i) {
+      wanted.insert(wanted.end(), i % 4, i);
+    }
+    at_thread_counts([&] {
+      EXPECT_EQ(collect<std::uint64_t>(count, 3,
+                                       [](std::size_t i, const auto& add) {
+                                         for (std::size_t n = 0; n < i % 4; ++n) {
+                                           add(i);
+                                         }
+                                       }),
+                wanted);
+    });
+  }
+}
+
+TEST(Parallel, OneThreadIsFirst) {
+  at_thread_counts([] {
+    std::vector<std::uint32_t> marks(10000, 4);
+    for (const std::uint32_t to : {5U, 6U}) {
+      const auto first = collect<std::size_t>(10 * marks.size(), 1, [&](std::size_t i, const auto& add) {
+        if (is_first(marks[i % marks.size()], to)) {
+          add(i);
+        }
+      });
+      EXPECT_EQ(first.size(), marks.size());
+      EXPECT_EQ(marks, std::vector<std::uint32_t>(marks.size(), to));
+    }
+  });
+}
+
 TEST(Parallel, SortsLikeOneThread) {
   for (const std::size_t count : {0, 1, 5000, 20000, 100001}) {
     std::vector<std::uint32_t> shuffled(count);
