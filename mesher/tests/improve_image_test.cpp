@@ -164,7 +164,7 @@ TEST(ImageBoundary, EveryVoxelCentreKeepsItsMaterial) {
       const Index3 at = image.frame.index_of(v);
       const Vec3 x = image.frame.local_centre(at[0], at[1], at[2]);
       ASSERT_EQ(boundary.material_at(x), image.voxels[v]);
-      for (MaterialId m = 0; m < image.material_count(); ++m) {
+      for (MaterialId m = 0, end = static_cast<MaterialId>(image.material_count()); m < end; ++m) {
         if (m != image.voxels[v]) {
           ASSERT_GT(boundary.sample(x, image.voxels[v], m).distance_mm, 0);
         }
@@ -260,7 +260,7 @@ Vertices draw_vertices(const LabelImage& image, std::size_t count, std::uint32_t
   for (std::size_t v = 0; v < count; ++v) {
     vertices.points.push_back(draw_in(random, image.frame, 1.5));
     MaterialSet set;
-    for (MaterialId m = 0; m < image.material_count(); ++m) {
+    for (MaterialId m = 0, end = static_cast<MaterialId>(image.material_count()); m < end; ++m) {
       if (random() % 2 == 0) set.add(m);
     }
     vertices.sets.push_back(set);
@@ -460,6 +460,7 @@ TEST(SurfaceCover, PointsGoToHostsWithinReachOrStay) {
 TEST(SurfaceCover, WhatNoneAroundReachesIsStrandedAndGoesToTheOneThatStays) {
   // A row of points; vertices 0 and 1 become one, 2 and 3 are to their left and right.
   std::vector<InterfacePoint> points;
+  points.reserve(7);
   for (int i = 0; i < 7; ++i) points.push_back({{1.0F * static_cast<float>(i), 0, 0}, 1, 0});
   const TetComplex mesh({{2, 0, 0}, {4, 0, 0}, {0, 0, 0}, {6, 0, 0}}, {}, {}, {0, 0, 0, 0});
   std::vector<MaterialSet> sets(4);

@@ -95,7 +95,7 @@ struct Trial {
   }
   [[nodiscard]] std::vector<long> characteristics() const {
     std::vector<long> chi;
-    for (MaterialId m = 1; m < image.material_count(); ++m) {
+    for (MaterialId m = 1, end = static_cast<MaterialId>(image.material_count()); m < end; ++m) {
       chi.push_back(testing::euler_characteristic(testing::surface_of_label(mesh.tets, mesh.materials, m)));
     }
     return chi;
@@ -107,7 +107,7 @@ struct Trial {
 void expect_sound(const Trial& trial, std::size_t hosted) {
   EXPECT_EQ(testing::inverted_tets(trial.mesh.tets, trial.mesh.points), 0U);
   EXPECT_EQ(testing::crowded_faces(trial.mesh.tets), 0U);
-  for (MaterialId m = 1; m < trial.image.material_count(); ++m) {
+  for (MaterialId m = 1, end = static_cast<MaterialId>(trial.image.material_count()); m < end; ++m) {
     const auto faults =
         testing::faults_of_surface(testing::surface_of_label(trial.mesh.tets, trial.mesh.materials, m));
     EXPECT_EQ(faults.edges, 0U) << "label " << m;
@@ -431,7 +431,7 @@ TEST(QualityPreset, SmoothPhantomsHaveGoodAnglesAndTheirTopology) {
     EXPECT_EQ(report.improve.tets_after, mesh.tets.size());
     EXPECT_LT(report.improve.tets_after, report.improve.tets_before);
     const auto voxels = image.voxels_per_material();
-    for (MaterialId m = 1; m < image.material_count(); ++m) {
+    for (MaterialId m = 1, end = static_cast<MaterialId>(image.material_count()); m < end; ++m) {
       EXPECT_EQ(testing::euler_characteristic(
                     testing::surface_of_label(mesh.tets.nodes, mesh.tets.labels, image.labels[m])),
                 cases[c].characteristics[m - 1U]);

@@ -251,8 +251,8 @@ TEST(NearestBoundaryVoxel, IsThatOfAFullSearch) {
     const double reach = 0.3 + 0.01 * n;
     double least = reach * reach;
     bool any = false;
-    for (int k = 0; k < 7; ++k)
-      for (int j = 0; j < 8; ++j)
+    for (int k = 0; k < 7; ++k) {
+      for (int j = 0; j < 8; ++j) {
         for (int i = 0; i < 9; ++i) {
           const auto beside = [&](int di, int dj, int dk) {
             return image.at_or_background(i + di, j + dj, k + dk);
@@ -269,6 +269,8 @@ TEST(NearestBoundaryVoxel, IsThatOfAFullSearch) {
             any = true;
           }
         }
+      }
+    }
     const auto got = nearest_boundary_voxel(image, at, m, reach);
     ASSERT_EQ(got.has_value(), any);
     EXPECT_EQ(has_boundary_voxel_near(image, at, m, reach), any);
