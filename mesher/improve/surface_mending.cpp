@@ -273,7 +273,8 @@ class Mender {
     FaultList faults = find_surface_faults(bench_.complex(), guide_);
     report_.faults = faults.seeds.size();
     report_.folds = faults.folds.size();
-    for (int round = 0; round < options_.rounds && !faults.seeds.empty(); ++round) {
+    const bool hopeless = faults.seeds.size() > most_trials_ / kFewestTrials;
+    for (int round = 0; round < options_.rounds && !faults.seeds.empty() && !hopeless; ++round) {
       std::size_t mended = 0;
       for (const auto& seeds : faults.seeds) {
         mended += mend(seeds) ? 1 : 0;
@@ -293,6 +294,8 @@ class Mender {
   }
 
  private:
+  static constexpr std::size_t kFewestTrials = 8;  // for each fault, else all would go into the first of them
+
   /// Betters what is round some vertices as far as it goes; true when anything was done.
   bool mend(const std::vector<VertexId>& seeds) {
     constexpr int kMostChanges = 20;

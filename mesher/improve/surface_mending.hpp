@@ -30,7 +30,8 @@ struct MendReport {
   std::size_t vertices_moved = 0;
 };
 
-/// Mends what it can; tets that become background are taken out. Vertices keep their numbers. Deterministic.
+/// Mends what it can, but nothing where the trials would not do for a look at every fault; tets that become
+/// background are taken out. Vertices keep their numbers. Deterministic.
 MendReport mend_surfaces(MaterialMesh& mesh, const std::vector<InterfacePoint>& points,
                          const ImagePlaces& places, const MendOptions& options);
 

@@ -248,9 +248,17 @@ TEST(MendSurfaces, NothingIsDoneToACleanMeshNorBeyondTheTrials) {
   mesh = lump;
   MendOptions few = options(1);
   few.most_trials = 1;
-  const MendReport report = mend_surfaces(mesh, points, places(), few);
-  EXPECT_GT(report.faults, 0U);
-  EXPECT_LE(report.tets_relabelled + report.vertices_moved, 8U);
+  const std::size_t faults = mend_surfaces(mesh, points, places(), few).faults;
+  ASSERT_GT(faults, 0U);
+  // Trials that would not do for a look at every fault are not begun with; with more some are used.
+  for (const std::size_t trials : {8 * faults - 1, 400 * faults}) {
+    mesh = lump;
+    few.most_trials = trials;
+    const MendReport report = mend_surfaces(mesh, points, places(), few);
+    EXPECT_EQ(report.tets_relabelled + report.vertices_moved > 0, trials > 8 * faults);
+    EXPECT_EQ(report.faults_left<faults, trials> 8 * faults);
+    EXPECT_EQ(mesh.materials == lump.materials && mesh.points == lump.points, trials < 8 * faults);
+  }
 }
 
 TEST(MendSurfaces, TheLastTetsOfAMaterialStay) {
