@@ -11,6 +11,7 @@
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/tet_adjacency.hpp"
 #include "mesher/stages/voxel_raster.hpp"
+#include "mesher/tests/lattice_checks.hpp"
 #include "mesher/tests/test_images.hpp"
 
 namespace cbc3d {
@@ -175,14 +176,7 @@ TEST(RedGreen, ARefinerThatRemembersSplitsAsOneThatLooksAtAll) {
     }
     marked[kept.reds.size() / 2] = marked.back() = 1;
     EXPECT_EQ(refiner.refine(marked), refine_red_green(anew, marked));
-    ASSERT_EQ(kept.points, anew.points);
-    ASSERT_EQ(kept.split_below, anew.split_below);
-    ASSERT_EQ(kept.reds.size(), anew.reds.size());
-    for (std::size_t r = 0; r < kept.reds.size(); ++r) {
-      ASSERT_EQ(kept.reds[r].nodes, anew.reds[r].nodes);
-      ASSERT_EQ(kept.reds[r].level, anew.reds[r].level);
-      ASSERT_EQ(kept.reds[r].split, anew.reds[r].split);
-    }
+    testing::expect_same_lattice(kept, anew);
   }
   EXPECT_GT(hull_area(kept, extract_tets(kept)), 0);  // conforming
 }

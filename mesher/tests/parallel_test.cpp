@@ -6,19 +6,12 @@
 #include <numeric>
 #include <random>
 
+#include "mesher/tests/thread_counts.hpp"
+
 namespace cbc3d {
 namespace {
 
-/// Runs a check at several thread counts.
-template <typename Check>
-void at_thread_counts(const Check& check) {
-  const int before = omp_get_max_threads();
-  for (const int threads : {1, 2, 3, 8}) {
-    omp_set_num_threads(threads);
-    check();
-  }
-  omp_set_num_threads(before);
-}
+using testing::at_thread_counts;
 
 TEST(Parallel, IndicesAreAscendingAndComplete) {
   for (const std::size_t count : {0, 1, 4095, 8192, 100001}) {

@@ -13,23 +13,16 @@
 #include "mesher/stages/red_green.hpp"
 #include "mesher/stages/select_candidate.hpp"
 #include "mesher/stages/tet_adjacency.hpp"
+#include "mesher/tests/lattice_checks.hpp"
 #include "mesher/tests/test_images.hpp"
+#include "mesher/tests/thread_counts.hpp"
 
 namespace cbc3d {
 namespace {
 
 using Neighbours = std::vector<std::array<TetId, 4>>;
 
-/// Runs a check at several thread counts.
-template <typename Check>
-void at_thread_counts(const Check& check) {
-  const int before = omp_get_max_threads();
-  for (const int threads : {1, 2, 3, 8}) {
-    omp_set_num_threads(threads);
-    check();
-  }
-  omp_set_num_threads(before);
-}
+using testing::at_thread_counts;
 
 /// Rounds in which many tets split at once, and then few.
 Lattice refined_lattice() {
@@ -53,14 +46,7 @@ TEST(RefinementThreads, SplitsManyTetsAtOnceAsOneAfterTheOther) {
   ASSERT_GT(wanted.reds.size(), 50000U);
   at_thread_counts([&] {
     const Lattice lattice = refined_lattice();
-    ASSERT_EQ(lattice.points, wanted.points);
-    ASSERT_EQ(lattice.split_below, wanted.split_below);
-    ASSERT_EQ(lattice.reds.size(), wanted.reds.size());
-    for (std::size_t r = 0; r < wanted.reds.size(); ++r) {
-      ASSERT_EQ(lattice.reds[r].nodes, wanted.reds[r].nodes);
-      ASSERT_EQ(lattice.reds[r].level, wanted.reds[r].level);
-      ASSERT_EQ(lattice.reds[r].split, wanted.reds[r].split);
-    }
+    testing::expect_same_lattice(lattice, wanted);
     for (std::size_t v = 0; v < wanted.points.size(); ++v) {
       ASSERT_EQ(lattice.table.find(wanted.points[v]), v);
     }
