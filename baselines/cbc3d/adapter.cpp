@@ -70,7 +70,8 @@ std::vector<ParameterSpec> improvement_parameters() {
        "rounds that thin the mesh out, as long as one takes 3 % away; 0: as many tets as before"},
       {"deviation", "0.35", "voxel diagonals", "facets stay so near to the boundary"},
       {"smoothness", "0", "", "share of the pull to the boundary that goes to smooth surfaces"},
-      {"smoothness-cap", "deviation", "mm", "smoothness moves no vertex farther from the boundary"},
+      {"smoothness-cap", "0.2 voxel diagonals, deviation at most", "mm",
+       "smoothness moves no vertex farther from the boundary"},
       {"gradation", "none", "", "growth of inner edges by the distance to the surfaces"},
   };
 }

@@ -201,10 +201,10 @@ void add_improvement_options(CLI::App& app, Overrides& overrides) {
       "improvement: how much of the pull to the boundary goes to smooth surfaces, in [0,1] [0]",
       [](MeshImageOptions& o) -> double& { return o.improve.smoothness; })
       ->check(CLI::Range(0.0, 1.0));
-  add_override<double>(
-      app, overrides, "--smoothness-cap",
-      "improvement: smoothness moves no vertex farther from the boundary, mm [what --deviation allows]",
-      [](MeshImageOptions& o) -> double& { return o.improve.smoothness_cap_mm; })
+  add_override<double>(app, overrides, "--smoothness-cap",
+                       "improvement: smoothness moves no vertex farther from the boundary, mm [0.2 voxel "
+                       "diagonals, or what --deviation allows where that is less]",
+                       [](MeshImageOptions& o) -> double& { return o.improve.smoothness_cap_mm; })
       ->check(CLI::PositiveNumber);
   add_override<double>(
       app, overrides, "--gradation",

@@ -218,7 +218,9 @@ class Improver {
         on_round_(on_round),
         goal_(sine_squared_of_deg(options.min_dihedral_deg + kMarginDeg)),
         relax_{options.surface_weight, 0.5, 0.01 * target.scale_mm, options.smoothness,
-               options.smoothness_cap_mm > 0 ? options.smoothness_cap_mm : target.deviation_mm} {}
+               options.smoothness_cap_mm > 0
+                   ? options.smoothness_cap_mm
+                   : std::min(target.deviation_mm, kSmoothnessCap * target.scale_mm)} {}
 
   ImproveReport run() {
     report_.tets_before = mesh_.tets.size();
@@ -250,8 +252,9 @@ class Improver {
   }
 
  private:
-  static constexpr double kMarginDeg = 1e-3;  // rounding when the mesh is written must not undo the goal
-  static constexpr double kGoodDeg = 35;      // tets worse than this are worth the try of an edge removal
+  static constexpr double kMarginDeg = 1e-3;     // rounding when the mesh is written must not undo the goal
+  static constexpr double kGoodDeg = 35;         // tets worse than this are worth the try of an edge removal
+  static constexpr double kSmoothnessCap = 0.2;  // in the target's scale, by default: farther is no flatter
   static constexpr double kLongestGrowth = 5;
   static constexpr double kVolumeShare = 0.05;   // that a collapse may take from a material round it
   static constexpr int kSettlings = 10;          // at most

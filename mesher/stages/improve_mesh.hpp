@@ -29,8 +29,8 @@ struct ImproveOptions {
       1000;  ///< pull to the boundary against the tets' shape, distances in voxel diagonals
   /// In [0,1]: how much of the pull to the boundary goes to smooth surfaces, see RelaxOptions; 0: none.
   double smoothness = 0;
-  double smoothness_cap_mm =
-      0;  ///< smoothness moves no vertex farther from the boundary; 0: deviation_diagonals
+  double smoothness_cap_mm = 0;  ///< smoothness moves no vertex farther from the boundary; 0: .2 diagonals,
+                                 ///< deviation_diagonals at most
   std::map<Label, double> size_mm;  ///< the decimation makes no edge of these labels longer
   /// No inner vertex vanishes for edges longer than those of the nearest interface and this times the way to
   /// there, about (see graded_sizes); interfaces thin out as ever. Below 0: no limit.
