@@ -41,10 +41,14 @@ std::int64_t process_peak_rss_bytes() {
   return static_cast<std::int64_t>(self_usage().ru_maxrss) * 1024;
 }
 
-void let_waiting_threads_sleep(char** argv) {
+bool choose_sleeping_waits() {
   constexpr const char* kTurns = "1000";  // some 20 us: about as long as it takes to wake a thread
-  if (std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr &&
-      ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0 && ::setenv("GOMP_SPINCOUNT", kTurns, 1) == 0) {
+  return std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr &&
+         ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0 && ::setenv("GOMP_SPINCOUNT", kTurns, 1) == 0;
+}
+
+void let_waiting_threads_sleep(char** argv) {
+  if (choose_sleeping_waits()) {
     ::execv("/proc/self/exe", argv);
   }
 }

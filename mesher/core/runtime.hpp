@@ -10,11 +10,14 @@ namespace cbc3d {
 /// cores. Returns the count in force.
 int set_thread_count(int threads);
 
-/// Lets OpenMP's waiting threads sleep when the next work does not come at once, unless the environment says
-/// how they wait: on a machine that does other things too, spinning threads hold up the one they wait for,
-/// several times over; but threads that sleep at once are woken up a thousand times a second.
-/// The library reads this when the program is loaded, so the program starts itself once more; call it first
-/// in main(). Does nothing where that cannot be done.
+/// Writes into the environment that OpenMP's waiting threads sleep when the next work does not come at once,
+/// unless it says already how they wait: on a machine that does other things too, spinning threads hold up the
+/// one they wait for, several times over; but threads that sleep at once are woken up a thousand times a second.
+/// OpenMP reads this when it is loaded. Returns whether something was written.
+bool choose_sleeping_waits();
+
+/// choose_sleeping_waits(), and where something was written, the program started once more, so that OpenMP
+/// reads it; call it first in main(). Does nothing where that cannot be done.
 void let_waiting_threads_sleep(char** argv);
 
 /// Lets the process keep freed memory for what it asks for next, instead of handing blocks back that it then
