@@ -22,7 +22,7 @@ namespace {
 struct MeshCommand {
   std::string image;
   std::string out;
-  RunDescription run{"quality", 0, {}, {}};
+  RunDescription run{"quality", 0, {}, {}, 0, 0};
   std::vector<std::string> material_fidelity;
   std::vector<std::string> sizes;
   MaterialOptions materials;
@@ -48,7 +48,9 @@ void run(MeshCommand& command) {
   }
   Progress progress(command.quiet);
   progress.step("reading " + command.image, 0);
+  const Stopwatch reading;
   LabelImage image = read_label_image(command.image);
+  command.run.reading_seconds = reading.seconds();
   command.run.frame = image.frame;
   auto& options = command.run.options;
   MeshImageOptions asked;
@@ -75,7 +77,9 @@ void run(MeshCommand& command) {
                    "' is empty: no label is larger than the lattice; give a smaller --lattice-spacing");
   }
   progress.step("writing " + command.out, 0.97);
+  const Stopwatch writing;
   write_mesh(mesh, command.out);
+  command.run.writing_seconds = writing.seconds();
   if (!command.report_file.empty()) {
     write_text_file(command.report_file, report_json(command.run, report, mesh).dump(2) + "\n");
   }

@@ -208,7 +208,12 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"improvement", run.options.improve.enabled ? improvement_json(report.improve, report.was_stricter)
                                                       : nlohmann::json()},
           {"warnings", report.warnings},
-          {"seconds", {{"total", report.seconds}, {"cpu", report.cpu_seconds}, {"stages", stages}}},
+          {"seconds",
+           {{"total", report.seconds},
+            {"cpu", report.cpu_seconds},
+            {"reading", run.reading_seconds},
+            {"writing", run.writing_seconds},
+            {"stages", stages}}},
           {"peak_rss_bytes", process_peak_rss_bytes()}};
 }
 

@@ -13,6 +13,8 @@ struct RunDescription {
   int threads = 0;           ///< in force
   MeshImageOptions options;  ///< preset and overrides together
   ImageFrame frame;          ///< of the image
+  double reading_seconds = 0;
+  double writing_seconds = 0;
 };
 
 /// What a cleaning changed: counts, and per label the voxels before and after and the change of volume.

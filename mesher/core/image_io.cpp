@@ -169,29 +169,12 @@ class Classifier {
   }
 
   [[nodiscard]] LabelVoxels voxels() const {
-    LabelVoxels voxels(count_);
-    voxels.hold(labels_);
-    voxels.visit([this](auto* to) {
-      if constexpr (sizeof(T) == 1 && sizeof(*to) == 1) {
-        if (values_are_materials()) {
-          return copy(to);
-        }
-      }
-      look_up(to);
-    });
+    LabelVoxels voxels = LabelVoxels::unwritten(count_, labels_);
+    voxels.visit([this](auto* to) { look_up(to); });
     return voxels;
   }
 
- private:
-  template <typename Voxel>
-  void copy(Voxel* to) const {
-    constexpr std::size_t kPiece = std::size_t{1} << 18U;
-#pragma omp parallel for schedule(static)
-    for (std::size_t begin = 0; begin < count_; begin += kPiece) {
-      std::memcpy(to + begin, values_ + begin, std::min(kPiece, count_ - begin));
-    }
-  }
-
+  /// Writes the material of every voxel to `to`; values of one byte may be there themselves.
   template <typename Voxel>
   void look_up(Voxel* to) const {
 #pragma omp parallel
@@ -209,6 +192,7 @@ class Classifier {
     }
   }
 
+ private:
   void collect() {
     material_[T{}] = kBackground;
     if constexpr (sizeof(T) == 1) {
@@ -304,48 +288,86 @@ class Classifier {
   std::size_t labels_ = 1;
 };
 
-/// `file`: the mapping that `bytes` are in, if they are in one; it is taken over where it can stay as it is.
+/// The bytes of a file that are one each stay where they are: a mapped file where they are materials already,
+/// and those in memory always.
 template <typename T>
-void classify(const void* bytes, std::optional<MappedVoxels>& file, LabelImage& image, const fs::path& path) {
-  Classifier<T> classifier(static_cast<const T*>(bytes), image.frame.voxel_count(), path);
+void classify(FileVoxels voxels, LabelImage& image, const fs::path& path) {
+  const std::size_t count = image.frame.voxel_count();
+  Classifier<T> classifier(static_cast<const T*>(data_of(voxels)), count, path);
   classifier.find_labels(image);
-  if (file && classifier.values_are_materials()) {
-    image.voxels = LabelVoxels(std::move(*file), image.frame.voxel_count());
-  } else {
-    image.voxels = classifier.voxels();
+  if constexpr (sizeof(T) == 1) {
+    const bool in_memory = std::holds_alternative<VoxelBytes>(voxels);
+    if (in_memory && !classifier.values_are_materials()) {
+      classifier.look_up(static_cast<std::uint8_t*>(data_of(voxels)));
+    }
+    if (in_memory || classifier.values_are_materials()) {
+      image.voxels = LabelVoxels(std::move(voxels), count);
+      return;
+    }
   }
+  image.voxels = classifier.voxels();
 }
 
-void classify_component(Component component, const void* bytes, std::optional<MappedVoxels>& file,
-                        LabelImage& image, const fs::path& path) {
+void classify_component(Component component, FileVoxels voxels, LabelImage& image, const fs::path& path) {
   switch (component) {
     case Component::UCHAR:
-      return classify<unsigned char>(bytes, file, image, path);
+      return classify<unsigned char>(std::move(voxels), image, path);
     case Component::CHAR:
-      return classify<signed char>(bytes, file, image, path);
+      return classify<signed char>(std::move(voxels), image, path);
     case Component::USHORT:
-      return classify<unsigned short>(bytes, file, image, path);
+      return classify<unsigned short>(std::move(voxels), image, path);
     case Component::SHORT:
-      return classify<short>(bytes, file, image, path);
+      return classify<short>(std::move(voxels), image, path);
     case Component::UINT:
-      return classify<unsigned int>(bytes, file, image, path);
+      return classify<unsigned int>(std::move(voxels), image, path);
     case Component::INT:
-      return classify<int>(bytes, file, image, path);
+      return classify<int>(std::move(voxels), image, path);
     case Component::ULONG:
-      return classify<unsigned long>(bytes, file, image, path);
+      return classify<unsigned long>(std::move(voxels), image, path);
     case Component::LONG:
-      return classify<long>(bytes, file, image, path);
+      return classify<long>(std::move(voxels), image, path);
     case Component::ULONGLONG:
-      return classify<unsigned long long>(bytes, file, image, path);
+      return classify<unsigned long long>(std::move(voxels), image, path);
     case Component::LONGLONG:
-      return classify<long long>(bytes, file, image, path);
+      return classify<long long>(std::move(voxels), image, path);
     case Component::FLOAT:
-      return classify<float>(bytes, file, image, path);
+      return classify<float>(std::move(voxels), image, path);
     case Component::DOUBLE:
-      return classify<double>(bytes, file, image, path);
+      return classify<double>(std::move(voxels), image, path);
     default:
       fail(path, "its pixel type is not known; convert it to an integer type");
   }
+}
+
+/// In the ordinary way.
+VoxelBytes read_voxels(itk::ImageIOBase& io, const fs::path& path) {
+  itk::ImageIORegion region(io.GetNumberOfDimensions());
+  for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) {
+    region.SetSize(axis, io.GetDimensions(axis));
+    region.SetIndex(axis, 0);
+  }
+  io.SetIORegion(region);
+  VoxelBytes voxels(0, io.GetImageSizeInBytes());
+  try {
+    io.Read(voxels.data());
+  } catch (const itk::ExceptionObject& error) {
+    fail(path, brief(error) + "; the file may be truncated, copy it again");
+  }
+  return voxels;
+}
+
+FileVoxels voxels_of_file(itk::ImageIOBase& io, const fs::path& path) {
+  const auto bytes = static_cast<std::size_t>(io.GetImageSizeInBytes());
+  const std::size_t component_bytes = io.GetComponentSize();
+  if (auto mapped = map_raw_nrrd(path, bytes, component_bytes)) {
+    return std::move(*mapped);
+  }
+  const bool floating =
+      io.GetComponentType() == Component::FLOAT || io.GetComponentType() == Component::DOUBLE;
+  if (auto unpacked = unpack_voxels(path, bytes, component_bytes, floating)) {
+    return std::move(*unpacked);
+  }
+  return read_voxels(io, path);
 }
 
 LabelImage read_with_itk(const fs::path& path) {
@@ -355,30 +377,7 @@ LabelImage read_with_itk(const fs::path& path) {
   LabelImage image;
   image.frame = frame_of(*io, path);
   orthonormalise(image.frame, path);
-  auto mapped = map_raw_nrrd(path, io->GetImageSizeInBytes(), io->GetComponentSize());
-  if (mapped) {
-    classify_component(io->GetComponentType(), mapped->data(), mapped, image, path);
-    return image;
-  }
-  const bool floating =
-      io->GetComponentType() == Component::FLOAT || io->GetComponentType() == Component::DOUBLE;
-  if (auto unpacked = unpack_voxels(path, io->GetImageSizeInBytes(), io->GetComponentSize(), floating)) {
-    classify_component(io->GetComponentType(), unpacked->data(), mapped, image, path);
-    return image;
-  }
-  itk::ImageIORegion region(io->GetNumberOfDimensions());
-  for (unsigned axis = 0; axis < io->GetNumberOfDimensions(); ++axis) {
-    region.SetSize(axis, io->GetDimensions(axis));
-    region.SetIndex(axis, 0);
-  }
-  io->SetIORegion(region);
-  const auto bytes = std::make_unique_for_overwrite<char[]>(io->GetImageSizeInBytes());
-  try {
-    io->Read(bytes.get());
-  } catch (const itk::ExceptionObject& error) {
-    fail(path, brief(error) + "; the file may be truncated, copy it again");
-  }
-  classify_component(io->GetComponentType(), bytes.get(), mapped, image, path);
+  classify_component(io->GetComponentType(), voxels_of_file(*io, path), image, path);
   return image;
 }
 
@@ -390,8 +389,7 @@ LabelImage read_from_inrimage(const fs::path& path) {
   InrimageVolume volume = read_inrimage(path);
   LabelImage image;
   image.frame = volume.frame;
-  std::optional<MappedVoxels> none;
-  classify_component(kComponents[static_cast<std::size_t>(volume.type)], volume.bytes.data(), none, image,
+  classify_component(kComponents[static_cast<std::size_t>(volume.type)], std::move(volume.bytes), image,
                      path);
   return image;
 }

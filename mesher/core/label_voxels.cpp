@@ -11,6 +11,17 @@ void LabelVoxels::point_to_own() {
   bytes_ = wide ? nullptr : narrow_.data();
 }
 
+LabelVoxels LabelVoxels::unwritten(std::size_t count, std::size_t materials) {
+  LabelVoxels voxels;
+  if (materials > std::size_t{kMostNarrow} + 1) {
+    voxels.wide_.resize(count);
+  } else {
+    voxels.narrow_.resize(count);
+  }
+  voxels.point_to_own();
+  return voxels;
+}
+
 LabelVoxels::LabelVoxels(const LabelVoxels& other) {
   if (other.is_wide()) {
     wide_ = other.wide_;

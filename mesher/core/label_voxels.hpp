@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "mesher/core/large_pages.hpp"
 #include "mesher/core/mapped_voxels.hpp"
+#include "mesher/core/packed_voxels.hpp"
 
 namespace cbc3d {
 
@@ -17,17 +19,28 @@ using MaterialId = std::uint16_t;
 
 inline constexpr MaterialId kBackground = 0;
 
+/// The bytes of an image's voxels as its file has them: the file itself, or memory that they were read into.
+using FileVoxels = std::variant<MappedVoxels, VoxelBytes>;
+
+/// The first voxel's first byte.
+inline void* data_of(const FileVoxels& voxels) {
+  return std::visit([](const auto& from) -> void* { return from.data(); }, voxels);
+}
+
 /// Material indices, one byte each until one above 255 is written, then two. Reading costs a branch that is
 /// always taken the same way; loops over rows take the type once by `visit`.
 class LabelVoxels {
  public:
   LabelVoxels() = default;
   /// `count` voxels of background, narrow.
-  explicit LabelVoxels(std::size_t count) : narrow_(count) { point_to_own(); }
-  /// The first `count` bytes of a mapped file, each of them a material index. What is written stays in
-  /// memory.
-  LabelVoxels(MappedVoxels file, std::size_t count)
-      : file_(std::move(file)), count_(count), bytes_(static_cast<std::uint8_t*>(file_->data())) {}
+  explicit LabelVoxels(std::size_t count) : narrow_(count, 0) { point_to_own(); }
+  /// The first `count` bytes of a file, each of them a material index. What is written stays in memory.
+  LabelVoxels(FileVoxels file, std::size_t count)
+      : file_(std::in_place, std::move(file)),
+        count_(count),
+        bytes_(static_cast<std::uint8_t*>(data_of(*file_))) {}
+  /// `count` voxels, of indices below `materials`, to be written before they are read.
+  static LabelVoxels unwritten(std::size_t count, std::size_t materials);
 
   /// A copy is in memory, whatever it is of.
   LabelVoxels(const LabelVoxels& other);
@@ -101,8 +114,9 @@ class LabelVoxels {
 
   /// To be called when no voxel is looked at for a while: a large mapped file leaves the memory until one is.
   void page_out() const {
-    if (file_ && count_ >= kLarge) {
-      file_->page_out();
+    const auto* mapped = file_ ? std::get_if<MappedVoxels>(&*file_) : nullptr;
+    if (mapped != nullptr && count_ >= kLarge) {
+      mapped->page_out();
     }
   }
 
@@ -118,7 +132,7 @@ class LabelVoxels {
   void point_to_own();
   void widen();
 
-  std::optional<MappedVoxels> file_;
+  std::optional<FileVoxels> file_;
   std::vector<std::uint8_t, LargePages<std::uint8_t>> narrow_;
   std::vector<std::uint16_t, LargePages<std::uint16_t>> wide_;
   std::size_t count_ = 0;

@@ -16,12 +16,13 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <cstring>
 #include <string>
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/gmsh_io.hpp"
-#include "mesher/core/parallel_zlib.hpp"
+#include "mesher/core/parallel_deflate.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -43,44 +44,74 @@ class FaultCatcher : public vtkCommand {
 
 /// VTK's wedge has its first triangle's normal pointing away from the second; Verdict's, and ours, towards
 /// it.
-constexpr int kWedgeOrder[6] = {0, 2, 1, 3, 5, 4};
+constexpr std::size_t kWedgeOrder[6] = {0, 2, 1, 3, 5, 4};
 
-template <int Nodes>
-void append(const CellBlock<Nodes>& block, int vtk_type, vtkCellArray& cells, vtkUnsignedCharArray& types,
-            vtkIntArray& labels) {
-  for (std::size_t c = 0; c < block.size(); ++c) {
-    vtkIdType ids[Nodes];
-    for (int n = 0; n < Nodes; ++n) {
-      const int from = vtk_type == VTK_WEDGE ? kWedgeOrder[n % 6] : n;
-      ids[n] = block.nodes[c][static_cast<std::size_t>(from)];
-    }
-    cells.InsertNextCell(Nodes, ids);
-    types.InsertNextValue(static_cast<unsigned char>(vtk_type));
-    labels.InsertNextValue(block.labels[c]);
+/// The arrays of a grid, filled block by block of cells.
+class GridArrays {
+ public:
+  explicit GridArrays(const Mesh& mesh) {
+    const auto cells = static_cast<vtkIdType>(mesh.cell_count());
+    const std::size_t nodes =
+        4 * mesh.tets.size() + 5 * mesh.pyramids.size() + 6 * mesh.wedges.size() + 8 * mesh.hexes.size();
+    offsets_->SetNumberOfValues(cells + 1);
+    offsets_->SetValue(0, 0);
+    connectivity_->SetNumberOfValues(static_cast<vtkIdType>(nodes));
+    types_->SetNumberOfValues(cells);
+    labels_->SetNumberOfValues(cells);
+    labels_->SetName(kLabelArray);
   }
-}
+
+  template <int Nodes>
+  void append(const CellBlock<Nodes>& block, int vtk_type) {
+    vtkIdType* const offsets = offsets_->GetPointer(cells_ + 1);
+    vtkIdType* const ids = connectivity_->GetPointer(nodes_);
+    unsigned char* const types = types_->GetPointer(cells_);
+    int* const labels = labels_->GetPointer(cells_);
+#pragma omp parallel for schedule(static)
+    for (std::size_t c = 0; c < block.size(); ++c) {
+      for (std::size_t n = 0; n < Nodes; ++n) {
+        const std::size_t from = vtk_type == VTK_WEDGE ? kWedgeOrder[n % 6] : n;
+        ids[Nodes * c + n] = block.nodes[c][from];
+      }
+      offsets[c] = nodes_ + static_cast<vtkIdType>(Nodes * (c + 1));
+      types[c] = static_cast<unsigned char>(vtk_type);
+      labels[c] = block.labels[c];
+    }
+    cells_ += static_cast<vtkIdType>(block.size());
+    nodes_ += static_cast<vtkIdType>(Nodes * block.size());
+  }
+
+  void give_to(vtkUnstructuredGrid& grid) const {
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(offsets_, connectivity_);
+    grid.SetCells(types_, cells);
+    grid.GetCellData()->AddArray(labels_);
+    grid.GetCellData()->SetActiveScalars(kLabelArray);
+  }
+
+ private:
+  vtkNew<vtkIdTypeArray> offsets_, connectivity_;
+  vtkNew<vtkUnsignedCharArray> types_;
+  vtkNew<vtkIntArray> labels_;
+  vtkIdType cells_ = 0, nodes_ = 0;  // appended so far
+};
 
 vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Mesh& mesh) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    points->SetPoint(static_cast<vtkIdType>(v), &mesh.points[v].x);
+  if (!mesh.points.empty()) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    std::memcpy(points->GetVoidPointer(0), mesh.points.data(), mesh.points.size() * sizeof(Vec3));
   }
-  vtkNew<vtkCellArray> cells;
-  cells->AllocateEstimate(static_cast<vtkIdType>(mesh.cell_count()), 4);
-  vtkNew<vtkUnsignedCharArray> types;
-  vtkNew<vtkIntArray> labels;
-  labels->SetName(kLabelArray);
-  append(mesh.tets, VTK_TETRA, *cells, *types, *labels);
-  append(mesh.pyramids, VTK_PYRAMID, *cells, *types, *labels);
-  append(mesh.wedges, VTK_WEDGE, *cells, *types, *labels);
-  append(mesh.hexes, VTK_HEXAHEDRON, *cells, *types, *labels);
+  GridArrays arrays(mesh);
+  arrays.append(mesh.tets, VTK_TETRA);
+  arrays.append(mesh.pyramids, VTK_PYRAMID);
+  arrays.append(mesh.wedges, VTK_WEDGE);
+  arrays.append(mesh.hexes, VTK_HEXAHEDRON);
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->SetPoints(points);
-  grid->SetCells(types, cells);
-  grid->GetCellData()->AddArray(labels);
-  grid->GetCellData()->SetActiveScalars(kLabelArray);
+  arrays.give_to(*grid);
   return grid;
 }
 
@@ -112,7 +143,7 @@ void run_writer(Writer& writer, vtkUnstructuredGrid& grid, const fs::path& path)
 }
 
 /// The arrays of a grid as its writer will come to ask for them; the first offset, 0, it leaves out.
-void foresee_arrays(vtkUnstructuredGrid& grid, std::size_t block_bytes, ParallelZlib& compressor) {
+void foresee_arrays(vtkUnstructuredGrid& grid, std::size_t block_bytes, ParallelDeflate& compressor) {
   const auto foresee = [&](vtkDataArray* array, vtkIdType first) {
     const auto bytes = static_cast<std::size_t>(array->GetNumberOfValues() - first) *
                        static_cast<std::size_t>(array->GetDataTypeSize());
@@ -127,7 +158,7 @@ void foresee_arrays(vtkUnstructuredGrid& grid, std::size_t block_bytes, Parallel
 
 void write_vtu(const Mesh& mesh, const fs::path& path) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  vtkNew<ParallelZlib> compressor;
+  vtkNew<ParallelDeflate> compressor;
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressor(compressor);

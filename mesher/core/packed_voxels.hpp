@@ -19,7 +19,7 @@ class VoxelBytes {
   /// Uninitialised.
   VoxelBytes(std::size_t header_bytes, std::size_t voxel_bytes);
 
-  [[nodiscard]] std::uint8_t* data() { return memory_.get() + header_bytes_; }
+  [[nodiscard]] std::uint8_t* data() const { return memory_.get() + header_bytes_; }
   /// Decompresses a file that is the header and the voxels; false when it is not just that.
   [[nodiscard]] bool fill_from_gzip(std::span<const std::uint8_t> file);
   [[nodiscard]] bool fill_from_gzip(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
-// zlib's compression of VTK files by all threads: the same bytes as VTK's own, which does one block after the
-// other.
+// The compression of VTK files by all threads and a quicker library than VTK's own, which does one block
+// after the other; what comes out are zlib streams like its own.
 #pragma once
 
 #include <vtkObjectFactory.h>
@@ -14,9 +14,9 @@ namespace cbc3d {
 
 /// Compresses arrays ahead, block by block in parallel, and hands VTK's writer the results when it comes to
 /// them; what was not foreseen it compresses there and then.
-class ParallelZlib : public vtkZLibDataCompressor {
+class ParallelDeflate : public vtkZLibDataCompressor {
  public:
-  static ParallelZlib* New() { VTK_STANDARD_NEW_BODY(ParallelZlib); }
+  static ParallelDeflate* New() { VTK_STANDARD_NEW_BODY(ParallelDeflate); }
 
   /// An array that will be written in blocks of so many bytes; to be called after the level is set. It must
   /// outlive the writing.
