@@ -7,16 +7,20 @@
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
+#include "mesher/core/unset_vector.hpp"
 
 namespace cbc3d {
 
 using VertexId = std::uint32_t;
 inline constexpr VertexId kNoVertex = 0xFFFFFFFFU;
 
+/// The nodes of tets, of which nothing else is known.
+using TetNodes = UnsetVector<std::array<VertexId, 4>>;
+
 /// Cells of one kind: node lists and, in parallel, their labels.
 template <int Nodes>
 struct CellBlock {
-  std::vector<std::array<VertexId, Nodes>> nodes;
+  UnsetVector<std::array<VertexId, Nodes>> nodes;
   std::vector<Label> labels;
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }

@@ -46,7 +46,7 @@ class LabelledComplex {
 
   MaterialMesh& mesh_;
   const std::vector<MaterialId>& label_of_;
-  std::vector<std::array<TetId, 4>> neighbours_;
+  TetNeighbours neighbours_;
   VertexTets around_;
   std::vector<MaterialSet> sets_;
 };

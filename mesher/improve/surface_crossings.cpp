@@ -22,8 +22,7 @@ struct OuterSurface {
 };
 
 /// What the outer surface may pass through where it is folded over about a vertex.
-void add_inner_facets(const MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
-                      OuterSurface& surface) {
+void add_inner_facets(const MaterialMesh& mesh, const TetNeighbours& neighbours, OuterSurface& surface) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     for (std::size_t n = 0; n < 4; ++n) {
       const TetId other = neighbours[t][n];

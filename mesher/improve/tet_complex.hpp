@@ -112,7 +112,7 @@ class TetComplex {
   std::vector<Vec3> points_;
   TetNodes tets_;
   std::vector<MaterialId> materials_;
-  std::vector<std::array<TetId, 4>> across_;
+  TetNeighbours across_;
   std::vector<TetId> tet_at_;  // some tet of each vertex
   std::vector<std::uint8_t> locked_;
   std::vector<TetId> free_;

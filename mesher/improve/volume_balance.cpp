@@ -29,8 +29,7 @@ TetExtent extent_of_tet(const MaterialMesh& mesh, const std::array<TetId, 4>& ne
 }
 
 /// Measured in parallel, added up in the order of the tets: sums depend on it.
-Extent extent_of(const MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
-                 std::size_t materials) {
+Extent extent_of(const MaterialMesh& mesh, const TetNeighbours& neighbours, std::size_t materials) {
   std::vector<TetExtent> of_tets(mesh.tets.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -132,7 +131,7 @@ class Balance {
   MaterialMesh& mesh_;
   const HostedPoints& hosted_;
   const BalanceOptions& options_;
-  std::vector<std::array<TetId, 4>> neighbours_;
+  TetNeighbours neighbours_;
   VertexTets around_;
   std::vector<MaterialSet> sets_;
   std::vector<double> step_mm_;  // of every material, outwards

@@ -367,7 +367,7 @@ Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& opti
   lattice.frame = grid.frame;
   std::vector<VertexId> vertex(nodes.size(), kNoVertex);
   for_each_chosen(grid, kept, [&](const PointTet& tet) {
-    RedTet red;
+    RedTet red{};
     for (std::size_t n = 0; n < 4; ++n) {
       VertexId& v = vertex[nodes.number_of(tet[n])];
       v = v == kNoVertex ? lattice.vertex_at(tet[n]) : v;

@@ -10,7 +10,7 @@ namespace cbc3d {
 namespace {
 
 /// The tets that are kept, at their new places.
-LatticeTets keep_tets(const LatticeTets& old, const std::vector<TetId>& number, std::size_t count) {
+LatticeTets keep_tets(const LatticeTets& old, const UnsetVector<TetId>& number, std::size_t count) {
   LatticeTets tets;
   tets.resize(count);
 #pragma omp parallel for schedule(static)
@@ -25,9 +25,12 @@ LatticeTets keep_tets(const LatticeTets& old, const std::vector<TetId>& number, 
 }
 
 /// Neighbours of the tets that are kept, unknown where the neighbour is gone.
-std::vector<std::array<TetId, 4>> keep_neighbours(const std::vector<std::array<TetId, 4>>& old,
-                                                  const std::vector<TetId>& number, std::size_t count) {
-  std::vector<std::array<TetId, 4>> neighbours(count, {kUnknownTet, kUnknownTet, kUnknownTet, kUnknownTet});
+TetNeighbours keep_neighbours(const TetNeighbours& old, const UnsetVector<TetId>& number, std::size_t count) {
+  TetNeighbours neighbours(count);
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < count; ++t) {
+    neighbours[t].fill(kUnknownTet);
+  }
 #pragma omp parallel for schedule(static)
   for (std::size_t t = 0; t < number.size(); ++t) {
     for (std::size_t n = 0; n < 4 && number[t] != kNoTet; ++n) {
@@ -44,7 +47,7 @@ std::vector<std::array<TetId, 4>> keep_neighbours(const std::vector<std::array<T
 
 /// Where the numbers of each block of kRedsOfBlock red tets begin, and at last how many there are.
 std::vector<TetId> LatticeFollower::first_of_blocks() const {
-  const std::vector<RedTet>& reds = lattice_.reds;
+  const UnsetVector<RedTet>& reds = lattice_.reds;
   std::vector<TetId> first((reds.size() + kRedsOfBlock - 1) / kRedsOfBlock + 1, 0);
 #pragma omp parallel for schedule(static) if (first.size() > 2)
   for (std::size_t b = 1; b < first.size(); ++b) {
@@ -58,9 +61,10 @@ std::vector<TetId> LatticeFollower::first_of_blocks() const {
   return first;
 }
 
-std::vector<TetId> LatticeFollower::renumber() {
-  std::vector<TetId> number(tet_count(), kNoTet);
-  const std::vector<TetId> first = first_of_blocks(), before = std::exchange(first_, {});
+UnsetVector<TetId> LatticeFollower::renumber() {
+  UnsetVector<TetId> number(tet_count());
+  const std::vector<TetId> first = first_of_blocks();
+  const UnsetVector<TetId> before = std::exchange(first_, {});
   const std::size_t count = lattice_.reds.size(), known = shapes_.size();
   first_.resize(count + 1);
   shapes_.resize(count);
@@ -76,6 +80,8 @@ std::vector<TetId> LatticeFollower::renumber() {
         for (TetId t = before[r]; t < before[r + 1]; ++t) {
           number[t] = next + (t - before[r]);
         }
+      } else if (r < known) {
+        std::fill(number.begin() + before[r], number.begin() + before[r + 1], kNoTet);
       }
       shapes_[r] = shape;
       first_[r] = next;
@@ -86,7 +92,7 @@ std::vector<TetId> LatticeFollower::renumber() {
   return number;
 }
 
-void LatticeFollower::rebuild(CandidateMesh& mesh, const std::vector<TetId>& number) const {
+void LatticeFollower::rebuild(CandidateMesh& mesh, const UnsetVector<TetId>& number) const {
   mesh.tets = keep_tets(mesh.tets, number, tet_count());
 #pragma omp parallel for schedule(dynamic, 4096)
   for (std::size_t r = 0; r < is_new_.size(); ++r) {

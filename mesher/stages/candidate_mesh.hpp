@@ -19,7 +19,7 @@ namespace cbc3d {
 struct CandidateMesh {
   LatticeTets tets;
   std::vector<MaterialId> materials;
-  std::vector<std::array<TetId, 4>> neighbours;
+  TetNeighbours neighbours;
   /// 0 for a vertex at which every label's surface is known to be a manifold; empty: nothing is known.
   std::vector<std::uint8_t> unsure = {};
 };
@@ -32,11 +32,11 @@ class LatticeFollower {
 
   /// Compares the lattice with what it was at the last call; returns the new number of every tet there was,
   /// kNoTet for those that are gone because their red tet was split or its green pieces are others.
-  std::vector<TetId> renumber();
+  UnsetVector<TetId> renumber();
 
   /// Brings nodes and neighbours up to date, for what renumber() returned. Parallel. What is kept is not
   /// computed again. The materials are the caller's.
-  void rebuild(CandidateMesh& mesh, const std::vector<TetId>& number) const;
+  void rebuild(CandidateMesh& mesh, const UnsetVector<TetId>& number) const;
 
   /// The tets of red tet r are first(r) ... first(r + 1) - 1.
   [[nodiscard]] TetId first(std::size_t r) const { return first_[r]; }
@@ -45,8 +45,8 @@ class LatticeFollower {
  private:
   /// What tells a red tet from the one that had its place before: splitting it makes it one level deeper.
   struct Shape {
-    std::int8_t level = -1;
-    std::uint8_t split = 0;
+    std::int8_t level;
+    std::uint8_t split;
     bool operator==(const Shape&) const = default;
   };
 
@@ -54,16 +54,19 @@ class LatticeFollower {
   [[nodiscard]] std::vector<TetId> first_of_blocks() const;
 
   const Lattice& lattice_;
-  std::vector<TetId> first_;
-  std::vector<Shape> shapes_;
+  UnsetVector<TetId> first_;
+  UnsetVector<Shape> shapes_;
   std::vector<std::uint8_t> is_new_;  // a red tet whose tets are to be written
 };
 
 /// Values of the tets under their new numbers; `otherwise` for the tets that are new.
-template <typename T>
-std::vector<T> renumbered(const std::vector<T>& values, const std::vector<TetId>& number, std::size_t count,
-                          T otherwise) {
-  std::vector<T> result(count, otherwise);
+template <typename Values, typename T = typename Values::value_type>
+Values renumbered(const Values& values, const UnsetVector<TetId>& number, std::size_t count, T otherwise) {
+  Values result(count);
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < count; ++t) {
+    result[t] = otherwise;
+  }
 #pragma omp parallel for schedule(static)
   for (std::size_t t = 0; t < values.size(); ++t) {
     if (number[t] != kNoTet) {

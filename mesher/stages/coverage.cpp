@@ -12,8 +12,7 @@ namespace {
 
 /// Those of the tets [begin, end). A vertex is met with again soon, from the tets beside: what was found last
 /// with the same hash tells most of those.
-std::vector<SurfaceVertex> surface_vertices_of(const TetNodes& tets,
-                                               const std::vector<std::array<TetId, 4>>& neighbours,
+std::vector<SurfaceVertex> surface_vertices_of(const TetNodes& tets, const TetNeighbours& neighbours,
                                                const std::vector<MaterialId>& materials, std::size_t begin,
                                                std::size_t end) {
   constexpr std::size_t kRecent = 4096;
@@ -39,8 +38,7 @@ std::vector<SurfaceVertex> surface_vertices_of(const TetNodes& tets,
 
 }  // namespace
 
-std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
-                                            const std::vector<std::array<TetId, 4>>& neighbours,
+std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets, const TetNeighbours& neighbours,
                                             const std::vector<MaterialId>& materials) {
   constexpr std::size_t kChunk = 16384;
   std::vector<std::vector<SurfaceVertex>> chunks((tets.size() + kChunk - 1) / kChunk);

@@ -20,8 +20,7 @@ struct SurfaceVertex {
 
 /// Every (vertex, material) with the vertex on a face between that labelled material and anything else; one
 /// that is seen from several tets may be there more than once.
-std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets,
-                                            const std::vector<std::array<TetId, 4>>& neighbours,
+std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets, const TetNeighbours& neighbours,
                                             const std::vector<MaterialId>& materials);
 
 /// The boundary voxels of an image (labelled, with a face neighbour of another material), and for each of

@@ -91,16 +91,15 @@ void MaterialSet::add(MaterialId material) {
 }
 
 std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
-                                          const std::vector<std::array<TetId, 4>>& neighbours,
-                                          std::size_t vertex_count) {
+                                          const TetNeighbours& neighbours, std::size_t vertex_count) {
   std::vector<MaterialSet> sets(vertex_count);
   renew_vertex_materials(tets, materials, neighbours, std::vector<std::uint8_t>(vertex_count, 1), sets);
   return sets;
 }
 
 void renew_vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
-                            const std::vector<std::array<TetId, 4>>& neighbours,
-                            const std::vector<std::uint8_t>& touched, std::vector<MaterialSet>& sets) {
+                            const TetNeighbours& neighbours, const std::vector<std::uint8_t>& touched,
+                            std::vector<MaterialSet>& sets) {
   const std::vector<std::uint32_t> concerned = indices_where(tets.size(), [&](std::size_t t) {
     const auto& n = tets[t];
     return (touched[n[0]] | touched[n[1]] | touched[n[2]] | touched[n[3]]) != 0;

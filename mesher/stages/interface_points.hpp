@@ -35,13 +35,12 @@ struct MaterialSet {
 
 /// The materials of the tets round every vertex, background included where a face has no neighbour.
 std::vector<MaterialSet> vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
-                                          const std::vector<std::array<TetId, 4>>& neighbours,
-                                          std::size_t vertex_count);
+                                          const TetNeighbours& neighbours, std::size_t vertex_count);
 
 /// Renews the sets of the vertices that are `touched` (one flag a vertex, as long as `sets`). Parallel.
 void renew_vertex_materials(const TetNodes& tets, const std::vector<MaterialId>& materials,
-                            const std::vector<std::array<TetId, 4>>& neighbours,
-                            const std::vector<std::uint8_t>& touched, std::vector<MaterialSet>& sets);
+                            const TetNeighbours& neighbours, const std::vector<std::uint8_t>& touched,
+                            std::vector<MaterialSet>& sets);
 
 /// True when every two of the materials meet, at least by a corner of voxels, within `reach_mm` of a place.
 bool all_meet_near(const LabelImage& image, const Vec3& local_mm, const MaterialSet& set, double reach_mm);

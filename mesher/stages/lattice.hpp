@@ -83,8 +83,8 @@ class VertexTable {
 /// A leaf of the red refinement. Nodes 0-1 and 2-3 are its two long edges; positively oriented.
 struct RedTet {
   std::array<VertexId, 4> nodes;
-  std::int8_t level = 0;
-  std::uint8_t split = 0;  ///< bit e: edge e (of kRedEdge) is split; kept by RedGreenRefiner
+  std::int8_t level;
+  std::uint8_t split;  ///< bit e: edge e (of kRedEdge) is split; kept by RedGreenRefiner
 };
 
 struct Lattice {
@@ -94,7 +94,7 @@ struct Lattice {
   /// table.
   std::vector<std::int8_t> split_below;
   VertexTable table;
-  std::vector<RedTet> reds;
+  UnsetVector<RedTet> reds;
 
   VertexId vertex_at(const LatticePoint& point);
 };
@@ -106,11 +106,12 @@ void append_local_points(const Lattice& lattice, std::vector<Vec3>& points);
 
 /// A conforming mesh of the lattice: its red leaves and the green pieces of those with split edges.
 struct LatticeTets {
-  std::vector<std::array<VertexId, 4>> nodes;  ///< positively oriented
-  std::vector<std::uint32_t> parent;           ///< index into Lattice::reds
-  std::vector<std::uint8_t> green;             ///< 1 for a green piece
+  TetNodes nodes;                     ///< positively oriented
+  UnsetVector<std::uint32_t> parent;  ///< index into Lattice::reds
+  UnsetVector<std::uint8_t> green;    ///< 1 for a green piece
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }
+  /// New tets have no value.
   void resize(std::size_t tets) {
     nodes.resize(tets);
     parent.resize(tets);

@@ -42,8 +42,8 @@ bool agree(const std::array<VertexId, 4>& a, std::size_t n, const std::array<Ver
 }
 
 /// Follows the faces from one tet, turning what disagrees; the tets in order of first sight.
-std::vector<TetId> follow(MaterialMesh& mesh, const std::vector<std::array<TetId, 4>>& neighbours,
-                          TetId first, std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& turned) {
+std::vector<TetId> follow(MaterialMesh& mesh, const TetNeighbours& neighbours, TetId first,
+                          std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& turned) {
   std::vector<TetId> part = {first};
   seen[first] = 1;
   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -78,7 +78,7 @@ std::size_t count_not_positive(const MaterialMesh& mesh) {
 OrientReport orient_tets(MaterialMesh& mesh) {
   OrientReport report;
   report.degenerate = drop_degenerate(mesh);
-  std::vector<std::array<TetId, 4>> neighbours;
+  TetNeighbours neighbours;
   try {
     neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   } catch (const JobError&) {

@@ -402,14 +402,31 @@ std::vector<std::uint32_t> RedGreenRefiner::concerned_reds() {
   if (!few || !near_.is_built()) {
     return indices_where(lattice_.reds.size(), [&](std::size_t t) { return is_concerned(lattice_.reds[t]); });
   }
+  return concerned_near(just_touched_);
+}
+
+/// Of the red tets that near_ has for these vertices, those that are concerned. A bit of each tells which
+/// were found already, and brings them in order.
+std::vector<std::uint32_t> RedGreenRefiner::concerned_near(const std::vector<VertexId>& vertices) const {
+  constexpr std::size_t kWorthThreads = 256;
+  std::vector<std::uint64_t> found((lattice_.reds.size() + 63) / 64, 0);
+#pragma omp parallel for schedule(dynamic, 64) if (vertices.size() > kWorthThreads)
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    near_.for_each_near(vertices[v], [&](std::uint32_t t) {
+      const std::atomic_ref<std::uint64_t> word(found[t / 64]);
+      const std::uint64_t bit = std::uint64_t{1} << (t % 64);
+      if ((word.load(std::memory_order_relaxed) & bit) == 0 && is_concerned(lattice_.reds[t])) {
+        word.fetch_or(bit, std::memory_order_relaxed);
+      }
+    });
+  }
   std::vector<std::uint32_t> concerned;
-  near_.for_each_near(just_touched_, [&](std::uint32_t t) {
-    if (is_concerned(lattice_.reds[t])) {
-      concerned.push_back(t);
+  for (std::size_t word = 0; word < found.size(); ++word) {
+    for (std::uint64_t left = found[word]; left != 0; left &= left - 1) {
+      concerned.push_back(static_cast<std::uint32_t>(64 * word) +
+                          static_cast<std::uint32_t>(std::countr_zero(left)));
     }
-  });
-  std::sort(concerned.begin(), concerned.end());
-  concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
+  }
   return concerned;
 }
 

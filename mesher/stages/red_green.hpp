@@ -35,6 +35,7 @@ class RedGreenRefiner {
   struct Action;
   bool sweep();
   [[nodiscard]] std::vector<std::uint32_t> concerned_reds();
+  [[nodiscard]] std::vector<std::uint32_t> concerned_near(const std::vector<VertexId>& vertices) const;
   [[nodiscard]] bool is_concerned(const RedTet& red) const;
   [[nodiscard]] bool is_touched_inside(const RedTet& red, unsigned face) const;
   [[nodiscard]] Demand demand_of(const RedTet& red) const;

@@ -23,16 +23,14 @@ class RedsOfVertices {
   /// True when most of what is known came since this was built.
   [[nodiscard]] bool is_stale() const { return later_.size() > reds_.size(); }
 
-  /// Calls f(red) for all red tets of these vertices, and for others; for some more than once.
+  /// Calls f(red) for all red tets of the vertex, and for others; for some more than once.
   template <typename F>
-  void for_each_near(const std::vector<VertexId>& vertices, const F& f) const {
-    for (const VertexId v : vertices) {
-      if (v + 1 < first_.size()) {
-        std::for_each(reds_.begin() + first_[v], reds_.begin() + first_[v + 1], f);
-      }
-      for (std::uint32_t at = v < last_.size() ? last_[v] : kNone; at != kNone; at = later_[at].before) {
-        f(later_[at].red);
-      }
+  void for_each_near(VertexId v, const F& f) const {
+    if (v + 1 < first_.size()) {
+      std::for_each(reds_.begin() + first_[v], reds_.begin() + first_[v + 1], f);
+    }
+    for (std::uint32_t at = v < last_.size() ? last_[v] : kNone; at != kNone; at = later_[at].before) {
+      f(later_[at].red);
     }
   }
 

@@ -72,7 +72,7 @@ class Refiner {
   /// Brings the mesh up to the lattice, and what is known of its tets to their new numbers.
   void follow_lattice() {
     CandidateMesh& mesh = result_.mesh;
-    const std::vector<TetId> number = follower_.renumber();
+    const UnsetVector<TetId> number = follower_.renumber();
     forget_removed(number);
     follower_.rebuild(mesh, number);
     judged_ = renumbered(judged_, number, mesh.tets.size(), kNotJudged);
@@ -85,7 +85,7 @@ class Refiner {
   }
 
   /// Takes the tets that are gone out of the account.
-  void forget_removed(const std::vector<TetId>& number) {
+  void forget_removed(const UnsetVector<TetId>& number) {
     touched_.assign(points_.size(), 0);
     tally(number.size(), [&](std::size_t t, FidelityAccount::Changes& changes) {
       if (number[t] == kNoTet) {
@@ -110,7 +110,7 @@ class Refiner {
             options_.smooth_labels ? boundary_.material_at(centroid) : image_.at_local(centroid);
       }
     }
-    mesh.materials = centroid_material_;
+    mesh.materials.assign(centroid_material_.begin(), centroid_material_.end());
     if (options_.one_face_rule) {
       select_candidate(mesh.neighbours, rank_, mesh.materials);
     }
@@ -132,7 +132,10 @@ class Refiner {
     mark_uncovered();
     mark_strays();
     const std::vector<MaterialId>& materials = result_.mesh.materials;
-    judged_.assign(materials.begin(), materials.end());
+#pragma omp parallel for schedule(static)
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      judged_[t] = materials[t];
+    }
     std::fill(touched_.begin(), touched_.end(), 0);
   }
 
@@ -515,12 +518,12 @@ class Refiner {
   LatticeFollower follower_;
   std::vector<std::uint32_t> rank_;
   static constexpr std::int32_t kNotJudged = -1;
-  std::vector<std::int32_t> judged_;          // the material each tet had when it was last judged
-  std::vector<ForeignMaterials> foreign_;     // what was in each tet then
+  UnsetVector<std::int32_t> judged_;          // the material each tet had when it was last judged
+  UnsetVector<ForeignMaterials> foreign_;     // what was in each tet then
   std::vector<std::uint8_t> touched_;         // vertices of tets that changed since
   std::vector<std::uint64_t> stray_verdict_;  // of vertices, see is_stray
   std::vector<Vec3> points_;
-  std::vector<MaterialId> centroid_material_;
+  UnsetVector<MaterialId> centroid_material_;
   std::vector<std::uint8_t> marked_;
   int topology_rounds_ = 0;
   int repairs_ = 0;

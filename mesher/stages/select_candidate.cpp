@@ -9,7 +9,7 @@ namespace {
 
 class Selector {
  public:
-  Selector(const std::vector<std::array<TetId, 4>>& neighbours, const std::vector<std::uint32_t>& rank,
+  Selector(const TetNeighbours& neighbours, const std::vector<std::uint32_t>& rank,
            std::vector<MaterialId>& materials)
       : neighbours_(neighbours), rank_(rank), materials_(materials) {}
 
@@ -166,7 +166,7 @@ class Selector {
     return best;
   }
 
-  const std::vector<std::array<TetId, 4>>& neighbours_;
+  const TetNeighbours& neighbours_;
   const std::vector<std::uint32_t>& rank_;
   std::vector<MaterialId>& materials_;
   std::vector<MaterialId> before_;      // the pass
@@ -178,8 +178,8 @@ class Selector {
 
 }  // namespace
 
-std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours,
-                             const std::vector<std::uint32_t>& rank, std::vector<MaterialId>& materials) {
+std::size_t select_candidate(const TetNeighbours& neighbours, const std::vector<std::uint32_t>& rank,
+                             std::vector<MaterialId>& materials) {
   return Selector(neighbours, rank, materials).run();
 }
 

@@ -18,7 +18,7 @@ namespace cbc3d {
 /// removes interface faces or moves a tet to the preferred side of a tie, so the sweeps end. `rank[m]`:
 /// preference of material m in ties, higher wins; rank_by_size with background highest. Returns how many tets
 /// were relabelled.
-std::size_t select_candidate(const std::vector<std::array<TetId, 4>>& neighbours,
-                             const std::vector<std::uint32_t>& rank, std::vector<MaterialId>& materials);
+std::size_t select_candidate(const TetNeighbours& neighbours, const std::vector<std::uint32_t>& rank,
+                             std::vector<MaterialId>& materials);
 
 }  // namespace cbc3d

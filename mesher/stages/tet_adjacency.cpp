@@ -12,8 +12,6 @@
 namespace cbc3d {
 namespace {
 
-using Neighbours = std::vector<std::array<TetId, 4>>;
-
 /// Counts in first[i + 1] become the places where the rows begin.
 void sum_up(std::vector<std::uint32_t>& first) {
   for (std::size_t i = 1; i < first.size(); ++i) {
@@ -26,7 +24,7 @@ void sum_up(std::vector<std::uint32_t>& first) {
 /// is parallel, and which of two tets comes first makes no difference.
 class FaceMatcher {
  public:
-  FaceMatcher(const TetNodes& tets, std::size_t vertex_count, Neighbours& neighbours)
+  FaceMatcher(const TetNodes& tets, std::size_t vertex_count, TetNeighbours& neighbours)
       : tets_(tets),
         shift_(shift_for(vertex_count)),
         neighbours_(neighbours),
@@ -213,7 +211,7 @@ class FaceMatcher {
   static constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15ULL;
   const TetNodes& tets_;
   unsigned shift_;  // a vertex without its last bits is its range
-  Neighbours& neighbours_;
+  TetNeighbours& neighbours_;
   std::size_t blocks_, ranges_;
   std::unique_ptr<TetId[]> open_;  // block by block, its tets with an unknown neighbour, from its begin on
   std::vector<std::size_t> open_count_;
@@ -224,14 +222,18 @@ class FaceMatcher {
 
 }  // namespace
 
-void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count, Neighbours& neighbours) {
+void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count, TetNeighbours& neighbours) {
   if (!FaceMatcher(tets, vertex_count, neighbours).run()) {
     throw JobError("the tet mesh is not conforming: a face belongs to more than two tets");
   }
 }
 
-std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size_t vertex_count) {
-  Neighbours neighbours(tets.size(), {kUnknownTet, kUnknownTet, kUnknownTet, kUnknownTet});
+TetNeighbours tet_neighbours(const TetNodes& tets, std::size_t vertex_count) {
+  TetNeighbours neighbours(tets.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    neighbours[t].fill(kUnknownTet);
+  }
   find_unknown_neighbours(tets, vertex_count, neighbours);
   return neighbours;
 }

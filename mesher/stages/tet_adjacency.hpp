@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/core/mesh.hpp"
+#include "mesher/core/unset_vector.hpp"
 
 namespace cbc3d {
 
@@ -13,16 +14,16 @@ using TetId = std::uint32_t;
 inline constexpr TetId kNoTet = 0xFFFFFFFFU;
 inline constexpr TetId kUnknownTet = 0xFFFFFFFEU;  ///< find_unknown_neighbours is to find it
 
-using TetNodes = std::vector<std::array<VertexId, 4>>;
+/// Across the face opposite to each node of each tet.
+using TetNeighbours = UnsetVector<std::array<TetId, 4>>;
 
 /// For each tet and node n: the tet across the face opposite to node n, kNoTet on the outside.
 /// Linear in the tets, parallel. Throws JobError when a face has more than two tets (the mesh is not
 /// conforming).
-std::vector<std::array<TetId, 4>> tet_neighbours(const TetNodes& tets, std::size_t vertex_count);
+TetNeighbours tet_neighbours(const TetNodes& tets, std::size_t vertex_count);
 
 /// The same for the faces that `neighbours` has as kUnknownTet, from both their sides; the others stay.
-void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count,
-                             std::vector<std::array<TetId, 4>>& neighbours);
+void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count, TetNeighbours& neighbours);
 
 /// The nodes of the face opposite to node n, counter-clockwise seen from outside a positive tet.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetFace = {

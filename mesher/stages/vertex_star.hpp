@@ -23,8 +23,7 @@ using ClassId = std::uint16_t;
 /// once warm.
 class VertexStar {
  public:
-  VertexStar(const VertexTets& around, const TetNodes& tets,
-             const std::vector<std::array<TetId, 4>>& neighbours)
+  VertexStar(const VertexTets& around, const TetNodes& tets, const TetNeighbours& neighbours)
       : around_(around), tets_(tets), neighbours_(neighbours) {}
 
   /// Loads the star of `vertex`. The outside of the mesh, where the star has faces towards it, counts as one
@@ -50,7 +49,7 @@ class VertexStar {
  private:
   const VertexTets& around_;
   const TetNodes& tets_;
-  const std::vector<std::array<TetId, 4>>& neighbours_;
+  const TetNeighbours& neighbours_;
   std::vector<TetId> members_;
   std::vector<ClassId> classes_;
   std::vector<ClassId> distinct_;

@@ -186,9 +186,9 @@ TEST(LatticeFollower, AMeshThatFollowsIsTheMeshMadeAnew) {
   Lattice lattice = lattice_of(image, 6, 0.3);
   LatticeFollower follower(lattice);
   CandidateMesh mesh;
-  std::vector<std::array<VertexId, 4>> nodes;  // of the tets, carried along
+  TetNodes nodes;  // of the tets, carried along
   for (const std::uint32_t one_in : {20U, 500U, 5000U, 1000000000U}) {
-    const std::vector<TetId> number = follower.renumber();
+    const UnsetVector<TetId> number = follower.renumber();
     follower.rebuild(mesh, number);
     const LatticeTets tets = extract_tets(lattice);
     EXPECT_EQ(mesh.tets.nodes, tets.nodes);

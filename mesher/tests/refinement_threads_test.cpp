@@ -20,8 +20,6 @@
 namespace cbc3d {
 namespace {
 
-using Neighbours = std::vector<std::array<TetId, 4>>;
-
 using testing::at_thread_counts;
 
 /// Rounds in which many tets split at once, and then few.
@@ -65,7 +63,7 @@ TEST(RefinementThreads, NeighboursAreTheTetsWithTheSameFace) {
     std::sort(face.begin(), face.end());
     return face;
   };
-  Neighbours wanted(tets.size(), {kNoTet, kNoTet, kNoTet, kNoTet});
+  TetNeighbours wanted(tets.size(), {kNoTet, kNoTet, kNoTet, kNoTet});
   for (TetId t = 0; t < tets.size(); ++t) {
     for (std::size_t n = 0; n < 4; ++n) {
       of_face[face_of(t, n)].push_back(t);
@@ -80,7 +78,7 @@ TEST(RefinementThreads, NeighboursAreTheTetsWithTheSameFace) {
   }
   at_thread_counts([&] {
     EXPECT_EQ(tet_neighbours(tets.nodes, lattice.points.size()), wanted);
-    Neighbours partly = wanted;  // what is known stays, what is not is found
+    TetNeighbours partly = wanted;  // what is known stays, what is not is found
     for (std::size_t t = 0; t < partly.size(); t += 5) {
       partly[t] = {kUnknownTet, kUnknownTet, kUnknownTet, kUnknownTet};
       for (std::size_t n = 0; n < 4; ++n) {
@@ -101,7 +99,7 @@ TEST(RefinementThreads, NeighboursAreTheTetsWithTheSameFace) {
 /// The rules of the selection (select_candidate.hpp), written down tet by tet in order.
 class SelectionInOrder {
  public:
-  SelectionInOrder(const Neighbours& neighbours, const std::vector<std::uint32_t>& rank,
+  SelectionInOrder(const TetNeighbours& neighbours, const std::vector<std::uint32_t>& rank,
                    std::vector<MaterialId> materials)
       : neighbours_(neighbours), rank_(rank), materials_(std::move(materials)) {}
 
@@ -166,7 +164,7 @@ class SelectionInOrder {
     return best;
   }
 
-  const Neighbours& neighbours_;
+  const TetNeighbours& neighbours_;
   const std::vector<std::uint32_t>& rank_;
   std::vector<MaterialId> materials_;
 };
@@ -174,7 +172,7 @@ class SelectionInOrder {
 TEST(RefinementThreads, SelectionIsThatOfTheOrder) {
   const Lattice lattice = refined_lattice();
   const LatticeTets tets = extract_tets(lattice);
-  const Neighbours neighbours = tet_neighbours(tets.nodes, lattice.points.size());
+  const TetNeighbours neighbours = tet_neighbours(tets.nodes, lattice.points.size());
   const std::vector<std::uint32_t> rank = {3, 1, 2, 0};
   std::mt19937 random(11);
   for (const std::uint32_t noise : {0U, 10U, 60U, 100U}) {

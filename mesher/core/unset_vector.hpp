@@ -1,0 +1,37 @@
+// Vectors whose elements have no value until one is written.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace cbc3d {
+
+/// Elements that are given no value get none: to zero a million of them, in order to write each a moment
+/// later, is time that no second thread can share, and it is that thread which then does not have the pages
+/// near it.
+template <typename T>
+struct UnsetAllocator : std::allocator<T> {
+  UnsetAllocator() = default;
+  template <typename U>
+  UnsetAllocator(const UnsetAllocator<U>& /*other*/) {}  // NOLINT: allocators convert
+  template <typename U>
+  struct rebind {
+    using other = UnsetAllocator<U>;
+  };
+
+  template <typename U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <typename U, typename... Args>
+  void construct(U* place, Args&&... args) {
+    ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
+  }
+};
+
+/// After UnsetVector(n) or resize(n) every new element is to be written before it is read.
+template <typename T>
+using UnsetVector = std::vector<T, UnsetAllocator<T>>;
+
+}  // namespace cbc3d
