@@ -1,9 +1,5 @@
 #include "mesher/core/packed_voxels.hpp"
 
-#include <omp.h>
-#include <sys/mman.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -33,19 +29,6 @@ std::vector<std::uint8_t> bytes_of_file(const fs::path& path, std::size_t begin)
   in.seekg(static_cast<std::streamoff>(begin));
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   return in ? bytes : std::vector<std::uint8_t>{};
-}
-
-/// Has the system put zeroed pages under memory that another thread fills from its beginning: what that takes
-/// is a good part of filling it. Contents stay as they are; a system that cannot do it is left alone.
-void populate_from_end([[maybe_unused]] std::uint8_t* memory, [[maybe_unused]] std::size_t bytes) {
-#ifdef MADV_POPULATE_WRITE
-  constexpr std::size_t kPiece = std::size_t{2} << 20U;
-  for (std::size_t piece = bytes / kPiece; piece-- > 0;) {  // large memory begins with a large page
-    if (::madvise(memory + piece * kPiece, kPiece, MADV_POPULATE_WRITE) != 0) {
-      return;
-    }
-  }
-#endif
 }
 
 template <typename T>
@@ -112,17 +95,7 @@ VoxelBytes::VoxelBytes(std::size_t header_bytes, std::size_t voxel_bytes)
       memory_(LargePages<std::uint8_t>().allocate(bytes_), Deleter{bytes_}) {}
 
 bool VoxelBytes::fill_from_gzip(std::span<const std::uint8_t> file) {
-  bool is_filled = false;
-#pragma omp parallel sections num_threads(std::min(2, omp_get_max_threads()))
-  {
-#pragma omp section
-    is_filled = inflate_gzip(file, {memory_.get(), bytes_});
-#pragma omp section
-    if (omp_get_num_threads() > 1) {
-      populate_from_end(memory_.get(), bytes_);
-    }
-  }
-  return is_filled;
+  return inflate_gzip(file, {memory_.get(), bytes_});
 }
 
 bool VoxelBytes::fill_from_gzip(const fs::path& path) {

@@ -4,12 +4,16 @@ namespace cbc3d {
 
 CleanReport clean_image(LabelImage& image, const CleanOptions& options, bool split) {
   CleanReport report;
-  const std::vector<std::size_t> before = image.voxels_per_material();
   const std::size_t labels = image.material_count();
-
+  const bool removes_regions = options.region_tolerance > 0;
+  std::vector<std::size_t> before;
+  if (options.relabel_noise != NoisyVoxels::none || !removes_regions) {  // else the removal counts on its way
+    before = image.voxels_per_material();
+  }
   report.noise = relabel_noisy_voxels(image, options.relabel_noise);
-  if (options.region_tolerance > 0) {
+  if (removes_regions) {
     report.removed = remove_small_regions(image, options.region_tolerance);
+    before = before.empty() ? report.removed.voxels_before : before;
   }
   const bool as_before =
       report.noise.holes_filled + report.noise.specks_relabelled == 0 && report.removed.regions_removed == 0;

@@ -26,15 +26,7 @@ class Regions {
     collect_runs();
     parent_.resize(runs_.size());
     std::iota(parent_.begin(), parent_.end(), 0U);
-    const auto rows_per_slice = static_cast<std::size_t>(image.frame.size[1]);
-    for (std::size_t row = 0; row + 1 < first_.size(); ++row) {
-      if (row % rows_per_slice != 0) {
-        join_rows(row - 1, row);
-      }
-      if (row >= rows_per_slice) {
-        join_rows(row - rows_per_slice, row);
-      }
-    }
+    join();
     number_regions();
   }
 
@@ -113,6 +105,30 @@ class Regions {
     return r;
   }
 
+  /// Blocks of slices in parallel, which share no run, and then each with the one before. The root of what is
+  /// joined is its first run, in whatever order it was.
+  void join() {
+    constexpr std::size_t kSlicesOfBlock = 16;
+    const auto ny = static_cast<std::size_t>(image_.frame.size[1]);
+    const auto nz = static_cast<std::size_t>(image_.frame.size[2]);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t begin = 0; begin < nz; begin += kSlicesOfBlock) {
+      for (std::size_t row = begin * ny; row < std::min(nz, begin + kSlicesOfBlock) * ny; ++row) {
+        if (row % ny != 0) {
+          join_rows(row - 1, row);
+        }
+        if (row >= (begin + 1) * ny) {
+          join_rows(row - ny, row);
+        }
+      }
+    }
+    for (std::size_t k = kSlicesOfBlock; k < nz; k += kSlicesOfBlock) {
+      for (std::size_t row = k * ny; row < (k + 1) * ny; ++row) {
+        join_rows(row - ny, row);
+      }
+    }
+  }
+
   /// Joins overlapping runs of the same material of two neighbouring rows; the earlier run stays the root.
   void join_rows(std::size_t a, std::size_t b) {
     std::size_t p = first_[a];
@@ -186,6 +202,13 @@ RegionReport remove_small_regions(LabelImage& image, double tolerance) {
   std::vector<MaterialId> to = present_materials(regions);
   RegionReport report;
   report.regions = to.size();
+  report.voxels_before.assign(summary.size(), 0);
+  std::size_t labelled = 0;
+  for (std::size_t m = 1; m < summary.size(); ++m) {
+    report.voxels_before[m] = summary[m].voxels;
+    labelled += summary[m].voxels;
+  }
+  report.voxels_before[kBackground] = image.voxels.size() - labelled;
   for (std::size_t r = 0; r < to.size(); ++r) {
     const MaterialSummary& of = summary[to[r]];
     const std::size_t voxels = regions.list()[r].voxels;

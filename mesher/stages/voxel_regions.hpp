@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "mesher/core/label_image.hpp"
 
@@ -12,7 +13,8 @@ struct RegionReport {
   std::size_t regions = 0;          ///< face-connected regions of all labelled materials
   std::size_t regions_removed = 0;  ///< those too small, now background
   std::size_t voxels_removed = 0;
-  std::size_t materials_added = 0;  ///< regions that became materials of their own
+  std::size_t materials_added = 0;         ///< regions that became materials of their own
+  std::vector<std::size_t> voxels_before;  ///< of each material, before any were removed; removal fills it
 };
 
 /// Turns region j of material i to background when |S_ij| / |S_i| < tolerance. (The formula as printed in the

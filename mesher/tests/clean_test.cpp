@@ -168,8 +168,25 @@ TEST(VoxelRegions, SmallOnesGoAndTheLargestStays) {
   const RegionReport report = remove_small_regions(image, 2e-4);
   EXPECT_EQ(report.regions_removed, 1U);
   EXPECT_EQ(report.voxels_removed, 1U);
+  EXPECT_EQ(report.voxels_before, (std::vector<std::size_t>{9998, 10001, 1}));
   EXPECT_EQ(image.voxels_per_material(), (std::vector<std::size_t>{9999, 10000, 1}));
   EXPECT_EQ(remove_small_regions(image, 1e-5).regions_removed, 0U);
+}
+
+/// A comb whose teeth meet only in the last slice, many slices from where they begin, is one region; teeth
+/// that do not reach it are regions of their own.
+TEST(VoxelRegions, AreJoinedOverAnyNumberOfSlices) {
+  LabelImage image = testing::make_image({20, 3, 100}, {1, 1, 1}, 1, [](const Vec3& p) {
+    const auto x = std::lround(p.x);
+    const bool joined = x < 10 && std::lround(p.z) == 99;
+    return joined || (x % 2 == 0 && std::lround(p.z) < 98) || (x % 2 == 0 && x < 10) ? 1 : 0;
+  });
+  LabelImage split = image;
+  EXPECT_EQ(split_regions(split).regions, 1U + 5U);
+  EXPECT_EQ(split.voxels_per_material()[1], 5U * 3U * 99U + 10U * 3U);
+  const RegionReport report = remove_small_regions(image, 0.2);
+  EXPECT_EQ(report.regions_removed, 5U);
+  EXPECT_EQ(report.voxels_removed, 5U * 3U * 98U);
 }
 
 TEST(VoxelNoise, BothTypesAreFoundAndSwitchable) {
