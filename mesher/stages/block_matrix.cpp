@@ -7,7 +7,7 @@ namespace cbc3d {
 namespace {
 
 /// Rows that one thread works on at a time; sums are made in these chunks, then over the chunks in order.
-constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kChunk = 256;
 
 std::size_t chunks_of(std::size_t count) {
   return (count + kChunk - 1) / kChunk;

@@ -62,7 +62,7 @@ void ElasticSystem::assemble(const MaterialMesh& mesh, const std::vector<std::ui
     }
     Scratch scratch;
     scratch.place.resize(is_source.size());
-#pragma omp for schedule(static, 512)
+#pragma omp for schedule(static, 64)
     for (std::size_t v = 0; v < is_source.size(); ++v) {
       assemble_row(mesh, static_cast<VertexId>(v), is_source[v] != 0, scratch);
     }

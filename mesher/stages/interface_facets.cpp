@@ -156,7 +156,7 @@ void keep_interfaces(const MaterialMesh& mesh, std::vector<Facet>& facets,
 }  // namespace
 
 std::vector<InterfaceFacet> interface_facets(const MaterialMesh& mesh, const VertexCells& around) {
-  constexpr std::size_t kChunk = 4096;
+  constexpr std::size_t kChunk = 512;
   const std::size_t count = mesh.points.size();
   std::vector<std::vector<InterfaceFacet>> chunks((count + kChunk - 1) / kChunk);
   std::atomic<bool> conforming = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/parallel.hpp"
@@ -9,24 +10,25 @@
 namespace cbc3d {
 
 VertexCells cells_of_vertices(const MaterialMesh& mesh) {
+  const auto cell_count = static_cast<CellId>(mesh.cell_count());
+  const auto for_each_in = [&](std::size_t begin, std::size_t end, const auto& f) {
+    for (CellId c = 0; c < cell_count; ++c) {
+      for (const VertexId v : mesh.nodes_of(c)) {
+        if (v >= begin && v < end) f(v, c);
+      }
+    }
+  };
   VertexCells around;
   around.first.assign(mesh.points.size() + 1, 0);
-  const auto cell_count = static_cast<CellId>(mesh.cell_count());
-  for (CellId c = 0; c < cell_count; ++c) {
-    for (const VertexId v : mesh.nodes_of(c)) {
-      ++around.first[v + 1];
-    }
-  }
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    around.first[v + 1] += around.first[v];
-  }
+  for_ranges(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+    for_each_in(begin, end, [&](VertexId v, CellId) { ++around.first[v + 1]; });
+  });
+  std::partial_sum(around.first.begin(), around.first.end(), around.first.begin());
   around.cells.resize(around.first.back());
   std::vector<std::uint32_t> next(around.first.begin(), around.first.end() - 1);
-  for (CellId c = 0; c < cell_count; ++c) {
-    for (const VertexId v : mesh.nodes_of(c)) {
-      around.cells[next[v]++] = c;
-    }
-  }
+  for_ranges(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+    for_each_in(begin, end, [&](VertexId v, CellId c) { around.cells[next[v]++] = c; });
+  });
   return around;
 }
 

@@ -291,7 +291,7 @@ std::vector<SourceDisplacement> SourceDisplacements::at(const std::vector<Vec3>&
 #pragma omp parallel
   {
     NearTargets near;
-#pragma omp for schedule(dynamic, 256)
+#pragma omp for schedule(dynamic, 32)
     for (std::size_t s = 0; s < found.size(); ++s) {
       found[s] = search.of(s, near);
     }
@@ -315,7 +315,7 @@ void SourceDisplacements::pull_pairs(const std::vector<Vec3>& positions, double 
 #pragma omp parallel
   {
     NearTargets near;
-#pragma omp for schedule(dynamic, 256)
+#pragma omp for schedule(dynamic, 32)
     for (std::size_t s = 0; s < found.size(); ++s) {
       std::uint64_t nearest = kNoPair;
       search.for_pairs(s, moved(s), 3 * most_mm, near, [&](std::uint32_t t, double square) {
