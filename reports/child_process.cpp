@@ -24,8 +24,8 @@ namespace {
 constexpr int kPollMilliseconds = 50;
 constexpr std::size_t kTailBytes = 16384;
 
-/// Environment of the child: ours, with the thread counts of the usual pools set.
-std::vector<std::string> child_environment(int threads) {
+/// Environment of the child: ours, with the thread counts of the usual pools set, and where threads run.
+std::vector<std::string> child_environment(int threads, bool bind_threads) {
   static constexpr std::array kThreadVariables{"OMP_NUM_THREADS", "OMP_THREAD_LIMIT",
                                                "ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS", "VTK_SMP_MAX_THREADS",
                                                "OPENBLAS_NUM_THREADS"};
@@ -35,7 +35,7 @@ std::vector<std::string> child_environment(int threads) {
     const std::string key = text.substr(0, text.find('='));
     const bool replaced = threads > 0 && std::find(kThreadVariables.begin(), kThreadVariables.end(), key) !=
                                              kThreadVariables.end();
-    if (!replaced) {
+    if (!replaced && !(bind_threads && key == "OMP_PROC_BIND")) {
       environment.push_back(text);
     }
   }
@@ -43,6 +43,9 @@ std::vector<std::string> child_environment(int threads) {
     if (threads > 0) {
       environment.push_back(key + ("=" + std::to_string(threads)));
     }
+  }
+  if (bind_threads) {
+    environment.emplace_back("OMP_PROC_BIND=true");
   }
   return environment;
 }
@@ -83,7 +86,7 @@ class RunningChild {
  public:
   explicit RunningChild(const ChildCommand& command)
       : command_(command),
-        child_(start_kept_child(command.argv, child_environment(command.threads))),
+        child_(start_kept_child(command.argv, child_environment(command.threads, command.bind_threads))),
         tail_(child_.errors) {}
   ~RunningChild() {
     let_go();

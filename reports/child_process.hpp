@@ -12,7 +12,8 @@ struct ChildCommand {
   int threads = 0;                ///< value of OMP_NUM_THREADS and the like; 0 leaves the environment alone
   double timeout_s = 0;           ///< wall-clock limit, s; 0: none
   std::int64_t memory_limit_bytes =
-      0;  ///< limit on the resident memory of the command and all it started; 0: none
+      0;                      ///< limit on the resident memory of the command and all it started; 0: none
+  bool bind_threads = false;  ///< OMP_PROC_BIND: OpenMP's threads stay each on a core of its own
 };
 
 enum class ChildEnd {

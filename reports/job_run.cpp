@@ -267,7 +267,8 @@ class Children {
 
  private:
   [[nodiscard]] ChildResult start(const std::vector<std::string>& argv, int threads) const {
-    ChildResult child = run_child({argv, threads, options_.timeout_s, options_.memory_limit_bytes});
+    ChildResult child =
+        run_child({argv, threads, options_.timeout_s, options_.memory_limit_bytes, options_.bind_threads});
     if (!succeeded(child)) {
       write_text_file(files_.log, child.stderr_tail);
     }
@@ -306,6 +307,7 @@ Json identity_of(const Job& job, const Bench& bench) {
 Json JobRunner::run(const Job& job) {
   Json result = identity_of(job, bench_);
   result["provenance"].update(provenance());
+  result["provenance"]["threads_bound"] = options_.bind_threads;
   try {
     const baselines::Availability availability = job.mesher->availability(bench_.bin_dir);
     if (!availability.available) {

@@ -45,6 +45,7 @@ struct RunOptions {
   bool rerun_changed = false;  ///< on resuming, run again what has changed instead of refusing
   bool retry_failed = false;   ///< on resuming, run again what was not ok
   bool interleaved = false;    ///< all first repeats before the second ones, so that drift hits all alike
+  bool bind_threads = false;   ///< OpenMP's threads stay each on a core of its own
   Shard shard;                 ///< the part of the jobs to run
 };
 

@@ -91,6 +91,10 @@ TEST(ChildProcess, SetsTheThreadCountOrLeavesIt) {
   ::setenv("OMP_NUM_THREADS", "7", 1);
   EXPECT_EQ(last_line(run({"env", "OMP_NUM_THREADS"}).stderr_tail), "7");
   ::unsetenv("OMP_NUM_THREADS");
+  ::setenv("OMP_PROC_BIND", "spread", 1);
+  EXPECT_EQ(last_line(run({"env", "OMP_PROC_BIND"}).stderr_tail), "spread");
+  EXPECT_EQ(last_line(run_child({{TEST_CHILD, "env", "OMP_PROC_BIND"}, 1, 60, 0, true}).stderr_tail), "true");
+  ::unsetenv("OMP_PROC_BIND");
 }
 
 TEST(ChildProcess, EndsWhatTheChildLeftBehind) {
