@@ -56,10 +56,6 @@ Command add_sweep_command(CLI::App& app) {
   add_limit_options(parser, options->run, options->memory_limit_gib);
   parser->add_option("--microbenchmarks", options->microbenchmarks,
                      "Google Benchmark's JSON files, put into tables and report");
-  parser->add_flag(
-      "--bind-threads", options->run.bind_threads,
-      "OpenMP's threads stay each on a core of its own (OMP_PROC_BIND), so that no time goes to the "
-      "system finding them one; on a machine that does nothing else");
   parser->add_flag("--resume", options->run.resume, "go on with the samples in --out");
   parser->add_flag(
       "--rerun-changed", options->run.rerun_changed,
