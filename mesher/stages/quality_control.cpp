@@ -54,6 +54,31 @@ std::vector<CellId> QualityControl::failing(const std::vector<Vec3>& before,
                        [&](std::size_t c) { return fails(static_cast<CellId>(c), before, after); });
 }
 
+/// Of cells that lie anywhere in memory: what the next ones need is asked for ahead.
+std::vector<CellId> QualityControl::those_that_fail(std::span<const CellId> cells,
+                                                    const std::vector<Vec3>& before,
+                                                    const std::vector<Vec3>& after) const {
+  constexpr std::size_t kNodesAhead = 16, kPointsAhead = 8;
+  const auto tet_ahead = [&](std::size_t i) {
+    return i < cells.size() && cells[i] < mesh_.tets.size() ? &mesh_.tets[cells[i]] : nullptr;
+  };
+  std::vector<CellId> failed;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (const auto* later = tet_ahead(i + kNodesAhead)) {
+      __builtin_prefetch(later);
+    }
+    if (const auto* next = tet_ahead(i + kPointsAhead)) {
+      for (const VertexId v : *next) {
+        __builtin_prefetch(&after[v]);
+      }
+    }
+    if (fails(cells[i], before, after)) {
+      failed.push_back(cells[i]);
+    }
+  }
+  return failed;
+}
+
 std::vector<CellId> QualityControl::failing_around(const std::vector<VertexId>& vertices,
                                                    const std::vector<Vec3>& before,
                                                    const std::vector<Vec3>& after,
@@ -61,14 +86,20 @@ std::vector<CellId> QualityControl::failing_around(const std::vector<VertexId>& 
                                                    std::uint32_t round) const {
   constexpr std::size_t kChunk = 128;
   std::vector<std::vector<CellId>> chunks((vertices.size() + kChunk - 1) / kChunk);
-#pragma omp parallel for schedule(dynamic, 1) if (chunks.size() > 1)
-  for (std::size_t c = 0; c < chunks.size(); ++c) {
-    for (std::size_t n = c * kChunk; n < std::min(vertices.size(), (c + 1) * kChunk); ++n) {
-      for (const CellId cell : around_.of(vertices[n])) {
-        if (is_first(seen[cell], round) && fails(cell, before, after)) {
-          chunks[c].push_back(cell);
+#pragma omp parallel if (chunks.size() > 1)
+  {
+    std::vector<CellId> cells;
+#pragma omp for schedule(dynamic, 1)
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+      cells.clear();
+      for (std::size_t n = c * kChunk; n < std::min(vertices.size(), (c + 1) * kChunk); ++n) {
+        for (const CellId cell : around_.of(vertices[n])) {
+          if (is_first(seen[cell], round)) {
+            cells.push_back(cell);
+          }
         }
       }
+      chunks[c] = those_that_fail(cells, before, after);
     }
   }
   std::vector<CellId> all;

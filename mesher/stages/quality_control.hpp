@@ -1,6 +1,7 @@
 // Quality control of the deformation (paper, section "Quality control").
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesher/stages/material_mesh.hpp"
@@ -38,6 +39,9 @@ class QualityControl {
                                                    const std::vector<Vec3>& after,
                                                    std::vector<std::uint32_t>& seen,
                                                    std::uint32_t round) const;
+  [[nodiscard]] std::vector<CellId> those_that_fail(std::span<const CellId> cells,
+                                                    const std::vector<Vec3>& before,
+                                                    const std::vector<Vec3>& after) const;
   [[nodiscard]] bool fails(CellId cell, const std::vector<Vec3>& before,
                            const std::vector<Vec3>& after) const;
 
