@@ -40,6 +40,7 @@ struct Adapter {
   std::string licence;         ///< SPDX expression
   bool deterministic = true;   ///< same input, same bytes
   bool multithreaded = false;  ///< the meshing itself gains from more threads
+  bool openmp = false;         ///< all its threads are OpenMP's
   std::vector<ParameterSpec> parameters;
   std::function<Availability(const std::filesystem::path& bin_dir)> availability;
   /// The argument vector of a job. Throws InputError for a parameter the mesher does not have.

@@ -182,13 +182,14 @@ Adapter load_external_mesher(const fs::path& file) {
   const Description description = read_description(file);
   description.require_known(description.content,
                             {"name", "description", "licence", "command", "output", "version_command",
-                             "multithreaded", "deterministic", "parameters"});
+                             "multithreaded", "openmp", "deterministic", "parameters"});
   Adapter adapter;
   adapter.name = checked_name(description);
   adapter.description = description.text(description.content, "description", "one line");
   adapter.licence = description.text(description.content, "licence", "an SPDX expression, \"MIT\" for one");
   adapter.mesh_extension = checked_extension(description);
   adapter.multithreaded = description.flag("multithreaded", false);
+  adapter.openmp = description.flag("openmp", false);
   adapter.deterministic = description.flag("deterministic", true);
   adapter.parameters = read_parameters(description);
   if (!description.content.contains("command"))

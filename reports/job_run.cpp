@@ -228,7 +228,7 @@ class Children {
   bool mesh(const fs::path& image, Json& result) const {
     const std::vector<std::string> argv = job_.mesher->command(
         bench_.bin_dir, {image, files_.mesh, files_.report, job_.threads, job_.parameters});
-    const ChildResult child = start(argv, job_.threads);
+    const ChildResult child = start(argv, job_.threads, options_.bind_threads && job_.mesher->openmp);
     const nlohmann::json report = read_json(files_.report);
     const bool external = job_.mesher->name.rfind("external:", 0) == 0;
     set_costs(result, child, report, external);
@@ -253,7 +253,7 @@ class Children {
     argv.insert(argv.end(), {files_.mesh, image, "--json", files_.evaluation, "--quiet"});
     const std::vector<std::string> phantom = phantom_options(*job_.subject);
     argv.insert(argv.end(), phantom.begin(), phantom.end());
-    const ChildResult child = start(argv, 0);
+    const ChildResult child = start(argv, 0, false);
     nlohmann::json evaluation = read_json(files_.evaluation);
     std::error_code error;
     fs::remove(files_.evaluation, error);
@@ -266,9 +266,10 @@ class Children {
   }
 
  private:
-  [[nodiscard]] ChildResult start(const std::vector<std::string>& argv, int threads) const {
+  [[nodiscard]] ChildResult start(const std::vector<std::string>& argv, int threads,
+                                  bool bind_threads) const {
     ChildResult child =
-        run_child({argv, threads, options_.timeout_s, options_.memory_limit_bytes, options_.bind_threads});
+        run_child({argv, threads, options_.timeout_s, options_.memory_limit_bytes, bind_threads});
     if (!succeeded(child)) {
       write_text_file(files_.log, child.stderr_tail);
     }
@@ -307,7 +308,7 @@ Json identity_of(const Job& job, const Bench& bench) {
 Json JobRunner::run(const Job& job) {
   Json result = identity_of(job, bench_);
   result["provenance"].update(provenance());
-  result["provenance"]["threads_bound"] = options_.bind_threads;
+  result["provenance"]["threads_bound"] = options_.bind_threads && job.mesher->openmp;
   try {
     const baselines::Availability availability = job.mesher->availability(bench_.bin_dir);
     if (!availability.available) {

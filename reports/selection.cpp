@@ -112,8 +112,8 @@ void add_limit_options(CLI::App* parser, RunOptions& run, double& memory_limit_g
       ->capture_default_str();
   parser->add_flag(
       "--bind-threads", run.bind_threads,
-      "OpenMP's threads stay each on a core of its own (OMP_PROC_BIND), so that no time goes to the "
-      "system finding them one; on a machine that does nothing else");
+      "threads of OpenMP meshers stay each on a core of its own (OMP_PROC_BIND), so that no time goes to "
+      "the system finding them one; for a machine that does nothing else");
   parser->add_option("--repeat", run.repeats, "runs of every job")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -126,6 +126,7 @@ Adapter make(const std::string& name, const std::string& description, const std:
   adapter.description = description;
   adapter.licence = "Apache-2.0";
   adapter.multithreaded = true;
+  adapter.openmp = true;
   adapter.parameters = std::move(parameters);
   adapter.availability = [](const std::filesystem::path& bin_dir) {
     return executable_availability(bin_dir, "cbc3d",

@@ -52,6 +52,7 @@ TEST_F(External, ACommandIsFilledInWithoutAShell) {
   EXPECT_EQ(adapter.name, "external:tool");
   EXPECT_EQ(adapter.mesh_extension, ".msh");
   EXPECT_FALSE(adapter.multithreaded);
+  EXPECT_FALSE(adapter.openmp);
   EXPECT_TRUE(adapter.deterministic);
   const MeshJob job{"a b.nii", "o'ut.msh", "r.json", 3, {{"size", "1.5"}}};
   EXPECT_EQ(adapter.command("", job), (std::vector<std::string>{(folder_ / "bin/tool").string(), "in=a b.nii",
@@ -92,6 +93,7 @@ TEST_F(External, BadFilesAreRefusedByKey) {
       {{{"command", {"tool", "{image}", "{mesh}", "{size}", "{colour}"}}}, "names {colour}"},
       {{{"command", {"tool", "{image}", "{mesh}"}}}, "lacks {size}"},
       {{{"multithreaded", 1}}, "give true or false"},
+      {{{"openmp", "yes"}}, "give true or false"},
       {{{"parameters", {{{"key", "size"}}}}}, "\"default\" is missing"}};
   for (const auto& [change, named] : wrong) {
     json bad = good_;

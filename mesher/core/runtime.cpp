@@ -3,7 +3,6 @@
 #include <itkMultiThreaderBase.h>
 #include <malloc.h>
 #include <omp.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <vtkSMPTools.h>
@@ -54,30 +53,10 @@ void let_waiting_threads_sleep(char** argv) {
   }
 }
 
-namespace {
-/// Of the memory from `begin` on, the whole large pages. That the advice is not taken is no fault.
-void advise_large_pages([[maybe_unused]] char* begin, [[maybe_unused]] std::size_t bytes) {
-#ifdef MADV_HUGEPAGE
-  constexpr std::size_t kPage = std::size_t{2} << 20U;
-  const std::size_t skipped = (kPage - reinterpret_cast<std::uintptr_t>(begin) % kPage) % kPage;
-  if (bytes >= skipped + kPage) {
-    static_cast<void>(::madvise(begin + skipped, (bytes - skipped) / kPage * kPage, MADV_HUGEPAGE));
-  }
-#endif
-}
-}  // namespace
-
 void keep_freed_memory() {
-  constexpr int kLargestKept = 32 << 20;  // the most that glibc takes; larger blocks go back at once,
-  constexpr int kHeap = 1 << 30;          // unless there is room for them in the heap
-  constexpr int kKept = 256 << 20, kUsualPad = 128 << 10;
+  constexpr int kLargestKept = 32 << 20;  // the most that glibc takes; larger blocks go back at once
   ::mallopt(M_MMAP_THRESHOLD, kLargestKept);
-  ::mallopt(M_TRIM_THRESHOLD, kHeap + kKept);
-  ::mallopt(M_TOP_PAD, kHeap);
-  void* volatile block = std::malloc(kLargestKept / 2);  // more than there is: the heap grows by kHeap
-  std::free(block);
-  ::mallopt(M_TOP_PAD, kUsualPad);
-  advise_large_pages(static_cast<char*>(::sbrk(0)) - kHeap, kHeap);
+  ::mallopt(M_TRIM_THRESHOLD, 8 * kLargestKept);
 }
 
 }  // namespace cbc3d

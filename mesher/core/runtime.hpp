@@ -21,8 +21,7 @@ bool choose_sleeping_waits();
 void let_waiting_threads_sleep(char** argv);
 
 /// Lets the process keep freed memory for what it asks for next, instead of handing blocks back that it then
-/// gets again page by page, each to be cleared by the system: that is serial work. The first GiB of it is in
-/// large pages where the system has them; what is not used of it takes no memory. Call it early in main().
+/// gets again page by page, each to be cleared by the system: that is serial work. Call it early in main().
 void keep_freed_memory();
 
 /// Wall-clock seconds since construction.

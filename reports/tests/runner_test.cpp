@@ -242,6 +242,16 @@ TEST_F(Runner, ALineTellsWhereItsFiguresComeFrom) {
   EXPECT_GT(lines()[0]["time_s"]["reference_cpu"].get<double>(), 0);
 }
 
+/// A pool of another kind would find itself on one core.
+TEST_F(Runner, BindsTheThreadsOfOpenmpMeshersAlone) {
+  bench_.meshers = {fake_mesher("mesh"), fake_mesher("fail")};
+  bench_.meshers[0].openmp = true;
+  options_.bind_threads = true;
+  for (const Json& line : run_jobs(bench_, options_, progress_)) {
+    EXPECT_EQ(line["provenance"]["threads_bound"], line["mesher"] == "mesh");
+  }
+}
+
 TEST_F(Runner, PlansThreadsRepeatsAndParameters) {
   bench_.meshers = {fake_mesher("mesh"), fake_mesher("fail")};
   bench_.meshers[1].multithreaded = false;
