@@ -170,7 +170,7 @@ class Classifier {
 
   [[nodiscard]] LabelVoxels voxels() const {
     LabelVoxels voxels = LabelVoxels::unwritten(count_, labels_);
-    voxels.visit([this](auto* to) { look_up(to); });
+    voxels.visit([this](auto* to) { this->look_up(to); });
     return voxels;
   }
 
