@@ -11,9 +11,9 @@ namespace cbc3d {
 int set_thread_count(int threads);
 
 /// Writes into the environment that OpenMP's waiting threads sleep when the next work does not come at once,
-/// unless it says already how they wait: on a machine that does other things too, spinning threads hold up the
-/// one they wait for, several times over; but threads that sleep at once are woken up a thousand times a second.
-/// OpenMP reads this when it is loaded. Returns whether something was written.
+/// unless it says already how they wait: on a machine that does other things too, spinning threads hold up
+/// the one they wait for, several times over; but threads that sleep at once are woken up a thousand times a
+/// second. OpenMP reads this when it is loaded. Returns whether something was written.
 bool choose_sleeping_waits();
 
 /// choose_sleeping_waits(), and where something was written, the program started once more, so that OpenMP
