@@ -15,6 +15,11 @@ namespace cbc3d::reports {
 namespace {
 namespace fs = std::filesystem;
 
+/// Pools of other kinds would find themselves on the one core that the first thread is bound to.
+bool binds_threads(const RunOptions& options, const Job& job) {
+  return options.bind_threads && job.mesher->openmp;
+}
+
 /// The files of one job.
 struct JobFiles {
   fs::path mesh, report, evaluation, log;
@@ -228,7 +233,7 @@ class Children {
   bool mesh(const fs::path& image, Json& result) const {
     const std::vector<std::string> argv = job_.mesher->command(
         bench_.bin_dir, {image, files_.mesh, files_.report, job_.threads, job_.parameters});
-    const ChildResult child = start(argv, job_.threads, options_.bind_threads && job_.mesher->openmp);
+    const ChildResult child = start(argv, job_.threads, binds_threads(options_, job_));
     const nlohmann::json report = read_json(files_.report);
     const bool external = job_.mesher->name.rfind("external:", 0) == 0;
     set_costs(result, child, report, external);
@@ -308,7 +313,7 @@ Json identity_of(const Job& job, const Bench& bench) {
 Json JobRunner::run(const Job& job) {
   Json result = identity_of(job, bench_);
   result["provenance"].update(provenance());
-  result["provenance"]["threads_bound"] = options_.bind_threads && job.mesher->openmp;
+  result["provenance"]["threads_bound"] = binds_threads(options_, job);
   try {
     const baselines::Availability availability = job.mesher->availability(bench_.bin_dir);
     if (!availability.available) {

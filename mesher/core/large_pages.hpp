@@ -8,14 +8,15 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
-#include <utility>
+
+#include "mesher/core/unset_vector.hpp"
 
 namespace cbc3d {
 
-/// An allocator for std::vector; what is smaller than a few pages is allocated as usual. Elements that are
-/// given no value have none: who fills them in parallel is the first to touch the pages, in parallel.
+/// An allocator for std::vector; what is smaller than a few pages is allocated as usual. Who fills
+/// a vector in parallel is the first to touch its pages, in parallel.
 template <typename T>
-struct LargePages {
+struct LargePages : LeavesUnset {
   using value_type = T;
   LargePages() = default;
   template <typename U>
@@ -29,14 +30,6 @@ struct LargePages {
       throw std::bad_alloc();
     }
     return static_cast<T*>(memory);
-  }
-  template <typename U>
-  void construct(U* place) {
-    ::new (static_cast<void*>(place)) U;
-  }
-  template <typename U, typename... Args>
-  void construct(U* place, Args&&... args) {
-    ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
   }
   void deallocate(T* memory, std::size_t /*count*/) { std::free(memory); }
   bool operator==(const LargePages& /*other*/) const { return true; }

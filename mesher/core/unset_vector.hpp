@@ -7,19 +7,10 @@
 
 namespace cbc3d {
 
-/// Elements that are given no value get none: to zero a million of them, in order to write each a moment
-/// later, is time that no second thread can share, and it is that thread which then does not have the pages
-/// near it.
-template <typename T>
-struct UnsetAllocator : std::allocator<T> {
-  UnsetAllocator() = default;
-  template <typename U>
-  UnsetAllocator(const UnsetAllocator<U>& /*other*/) {}  // NOLINT: allocators convert
-  template <typename U>
-  struct rebind {
-    using other = UnsetAllocator<U>;
-  };
-
+/// What makes an allocator leave elements unset that are given no value: to zero a million of them, in order
+/// to write each a moment later, is time that no second thread can share, and it is that thread which then
+/// does not have the pages near it.
+struct LeavesUnset {
   template <typename U>
   void construct(U* place) {
     ::new (static_cast<void*>(place)) U;
@@ -28,6 +19,17 @@ struct UnsetAllocator : std::allocator<T> {
   void construct(U* place, Args&&... args) {
     ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
   }
+};
+
+template <typename T>
+struct UnsetAllocator : std::allocator<T>, LeavesUnset {
+  UnsetAllocator() = default;
+  template <typename U>
+  UnsetAllocator(const UnsetAllocator<U>& /*other*/) {}  // NOLINT: allocators convert
+  template <typename U>
+  struct rebind {
+    using other = UnsetAllocator<U>;
+  };
 };
 
 /// After UnsetVector(n) or resize(n) every new element is to be written before it is read.
