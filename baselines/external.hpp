@@ -19,7 +19,7 @@
 
 #include <filesystem>
 
-#include "baselines/adapter.hpp"
+#include "baselines/core/adapter.hpp"
 
 namespace cbc3d::baselines {
 

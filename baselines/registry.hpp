@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "baselines/adapter.hpp"
+#include "baselines/core/adapter.hpp"
 
 namespace cbc3d::baselines {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.hpp"
+#include "cases/core/case.hpp"
 
 namespace cbc3d::cases {
 

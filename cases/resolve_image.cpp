@@ -3,7 +3,7 @@
 #include "cases/derive.hpp"
 #include "cases/manifest.hpp"
 #include "cases/phantoms/registry.hpp"
-#include "cases/sha256.hpp"
+#include "cases/core/sha256.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 

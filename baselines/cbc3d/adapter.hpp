@@ -1,7 +1,7 @@
 // CBC3D itself, by its command.
 #pragma once
 
-#include "baselines/adapter.hpp"
+#include "baselines/core/adapter.hpp"
 
 namespace cbc3d::baselines {
 

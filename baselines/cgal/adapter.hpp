@@ -1,7 +1,7 @@
 // CGAL Mesh_3, sequential and parallel.
 #pragma once
 
-#include "baselines/adapter.hpp"
+#include "baselines/core/adapter.hpp"
 
 namespace cbc3d::baselines {
 

@@ -2,7 +2,7 @@
 // exudation.
 #pragma once
 
-#include "baselines/driver.hpp"
+#include "baselines/core/driver.hpp"
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 

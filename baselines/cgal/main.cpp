@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "baselines/cgal/adapter.hpp"
 #include "baselines/cgal/cgal_mesher.hpp"
 
 namespace {
@@ -11,9 +12,9 @@ using cbc3d::baselines::CgalOptions;
 using cbc3d::baselines::ParameterValues;
 
 #ifdef CBC3D_CGAL_PARALLEL
-constexpr const char* kAdapter = "cgal-parallel";
+const auto make_adapter = cbc3d::baselines::cgal_parallel_adapter;
 #else
-constexpr const char* kAdapter = "cgal";
+const auto make_adapter = cbc3d::baselines::cgal_adapter;
 #endif
 
 CgalOptions options_of(const ParameterValues& values) {
@@ -39,7 +40,7 @@ CgalOptions options_of(const ParameterValues& values) {
 
 int main(int argc, char** argv) {
   cbc3d::baselines::MesherProgram program;
-  program.adapter = kAdapter;
+  program.adapter = make_adapter();
   program.versions = {{"cgal", CGAL_VERSION_STR}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int threads,

@@ -1,7 +1,7 @@
 // TetGen behind a surface net of the label image.
 #pragma once
 
-#include "baselines/adapter.hpp"
+#include "baselines/core/adapter.hpp"
 
 namespace cbc3d::baselines {
 

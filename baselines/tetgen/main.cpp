@@ -1,4 +1,5 @@
 // cbc3d-mesher-tetgen.
+#include "baselines/tetgen/adapter.hpp"
 #include "baselines/tetgen/tetgen_mesher.hpp"
 
 namespace {
@@ -22,7 +23,7 @@ TetgenOptions options_of(const ParameterValues& values) {
 
 int main(int argc, char** argv) {
   cbc3d::baselines::MesherProgram program;
-  program.adapter = "tetgen";
+  program.adapter = cbc3d::baselines::tetgen_adapter();
   program.versions = {{"tetgen", CBC3D_TETGEN_VERSION}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int,

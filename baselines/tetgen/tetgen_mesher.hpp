@@ -1,7 +1,7 @@
 // TetGen on a label image: a surface net of all interfaces, then constrained Delaunay tetrahedra behind it.
 #pragma once
 
-#include "baselines/driver.hpp"
+#include "baselines/core/driver.hpp"
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 

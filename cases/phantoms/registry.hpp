@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "cases/case.hpp"
+#include "cases/core/case.hpp"
 #include "cases/phantoms/model.hpp"
 #include "mesher/core/label_image.hpp"
 

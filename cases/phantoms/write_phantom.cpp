@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "cases/phantoms/registry.hpp"
-#include "cases/sha256.hpp"
+#include "cases/core/sha256.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"

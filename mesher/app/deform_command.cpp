@@ -12,7 +12,7 @@
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/progress.hpp"
 #include "mesher/core/runtime.hpp"
-#include "mesher/stages/presets.hpp"
+#include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
 namespace {

@@ -13,10 +13,10 @@
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/progress.hpp"
 #include "mesher/core/runtime.hpp"
-#include "mesher/improve/mesh_boundary.hpp"
-#include "mesher/stages/improve_mesh.hpp"
-#include "mesher/stages/labelled_tets.hpp"
-#include "mesher/stages/orient_tets.hpp"
+#include "mesher/domain/mesh_boundary.hpp"
+#include "mesher/improve/improve_mesh.hpp"
+#include "mesher/topology/labelled_tets.hpp"
+#include "mesher/topology/orient_tets.hpp"
 
 namespace cbc3d {
 namespace {

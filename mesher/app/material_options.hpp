@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/stages/elasticity.hpp"
+#include "mesher/deform/elasticity.hpp"
 
 namespace cbc3d {
 

@@ -13,8 +13,8 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/stages/mesh_image.hpp"
-#include "mesher/stages/presets.hpp"
+#include "mesher/pipeline/mesh_image.hpp"
+#include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
 namespace {

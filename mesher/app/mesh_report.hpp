@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "mesher/stages/mesh_image.hpp"
+#include "mesher/pipeline/mesh_image.hpp"
 
 namespace cbc3d {
 

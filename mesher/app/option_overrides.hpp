@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/stages/mesh_image.hpp"
+#include "mesher/pipeline/mesh_image.hpp"
 
 namespace cbc3d {
 

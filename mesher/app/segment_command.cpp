@@ -6,7 +6,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/stages/segment_image.hpp"
+#include "mesher/segment/segment_image.hpp"
 
 namespace cbc3d {
 namespace {

@@ -1,0 +1,66 @@
+#include "baselines/core/adapter.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::baselines {
+
+Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,
+                                     const std::string& remedy) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(bin_dir / executable, ignored)) return {true, ""};
+  return {false, remedy};
+}
+
+std::filesystem::path find_program(const std::string& program) {
+  std::error_code ignored;
+  if (program.find('/') != std::string::npos) {
+    return std::filesystem::is_regular_file(program, ignored) ? std::filesystem::path(program)
+                                                              : std::filesystem::path();
+  }
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const auto candidate = std::filesystem::path(folder.empty() ? "." : folder) / program;
+    if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
+  }
+  return {};
+}
+
+namespace {
+
+std::string unknown_parameter(const std::string& mesher, const std::vector<ParameterSpec>& known,
+                              const std::string& key, const std::string& value) {
+  std::string message = mesher + "." + key + "=" + value + ": no such parameter; " + mesher + " knows ";
+  for (const ParameterSpec& spec : known) message += (&spec == &known.front() ? "" : ", ") + spec.key;
+  return message;
+}
+
+}  // namespace
+
+void require_known_parameters(const std::string& mesher, const std::vector<ParameterSpec>& known,
+                              const MeshJob& job) {
+  for (const auto& parameter : job.parameters) {
+    const auto same = [&](const ParameterSpec& spec) { return spec.key == parameter.first; };
+    if (std::any_of(known.begin(), known.end(), same)) continue;
+    throw InputError(unknown_parameter(mesher, known, parameter.first, parameter.second));
+  }
+}
+
+std::vector<std::string> protocol_command(const std::filesystem::path& executable, const std::string& mesher,
+                                          const std::vector<ParameterSpec>& known, const MeshJob& job) {
+  require_known_parameters(mesher, known, job);
+  std::vector<std::string> argv{executable.string(),         "--image",  job.image.string(),  "--out",
+                                job.mesh.string(),           "--report", job.report.string(), "--threads",
+                                std::to_string(job.threads), "--quiet"};
+  for (const auto& [key, value] : job.parameters) {
+    argv.push_back("--" + key);
+    argv.push_back(value);
+  }
+  return argv;
+}
+
+}  // namespace cbc3d::baselines

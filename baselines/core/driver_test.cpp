@@ -1,0 +1,61 @@
+#include "baselines/core/driver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "mesher/core/error.hpp"
+
+namespace cbc3d::baselines {
+namespace {
+
+ParameterValues values() {
+  return ParameterValues({{"size", "2.5", "mm", "a length"}, {"on", "true", "true|false", "a switch"}});
+}
+
+TEST(ParameterValues, StartFromTheDefaults) {
+  EXPECT_EQ(values().number("size", 0, 10), 2.5);
+  EXPECT_TRUE(values().flag("on"));
+}
+
+TEST(ParameterValues, RefuseWhatIsNoNumberOrOutOfRange) {
+  ParameterValues given = values();
+  for (const char* bad : {"", "abc", "2mm", "nan", "inf", "-1", "11"}) {
+    given.text("size") = bad;
+    EXPECT_THROW((void)given.number("size", 0, 10), InputError) << bad;
+  }
+  given.text("size") = "1e1";
+  EXPECT_EQ(given.number("size", 0, 10), 10);
+  EXPECT_EQ(given.count("size", 0, 10), 10);
+  given.text("size") = "2.5";
+  EXPECT_THROW((void)given.count("size", 0, 10), InputError);
+}
+
+TEST(ParameterValues, RefuseWhatIsNoSwitch) {
+  ParameterValues given = values();
+  given.text("on") = "yes";
+  EXPECT_THROW((void)given.flag("on"), InputError);
+  given.text("on") = "false";
+  EXPECT_FALSE(given.flag("on"));
+}
+
+TEST(StageTimes, ASecondTurnCountsOnInTheSamePlace) {
+  const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
+  StageTimes stages;
+  stages.start("mesh");
+  pause();
+  stages.start("repair");
+  stages.start("mesh");
+  pause();
+  stages.stop();
+  pause();
+  ASSERT_EQ(stages.seconds().size(), 2U);
+  EXPECT_EQ(stages.seconds()[0].first, "mesh");
+  EXPECT_GE(stages.seconds()[0].second, 0.04);
+  EXPECT_EQ(stages.seconds()[1].first, "repair");
+  EXPECT_LT(stages.seconds()[1].second, 0.02);
+}
+
+}  // namespace
+}  // namespace cbc3d::baselines

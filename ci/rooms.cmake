@@ -1,0 +1,62 @@
+# A room is one folder and one target, whose links to other rooms are the only arrows that its includes may follow.
+# cbc3d_write_rooms writes them down for ci/check-includes.
+
+# cbc3d_room(FOLDER SOURCES... [ROOMS rooms below] [LIBRARIES others, private]) makes the library cbc3d_FOLDER, with _
+# for / and without `mesher/`. Without sources it is a room of headers.
+function(cbc3d_room folder)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "ROOMS;LIBRARIES")
+  cbc3d_room_target(room ${folder})
+  set(rooms ${ARG_ROOMS})
+  list(TRANSFORM rooms PREPEND cbc3d_)
+  if(ARG_UNPARSED_ARGUMENTS)
+    add_library(${room} STATIC ${ARG_UNPARSED_ARGUMENTS})
+    target_link_libraries(${room}
+      PUBLIC OpenMP::OpenMP_CXX ${rooms} PRIVATE $<BUILD_INTERFACE:cbc3d_flags> ${ARG_LIBRARIES})
+    target_include_directories(${room} PUBLIC
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cbc3d>)
+    target_compile_features(${room} PUBLIC cxx_std_20)
+  else()
+    add_library(${room} INTERFACE)
+    target_link_libraries(${room} INTERFACE ${rooms})
+    target_include_directories(${room} INTERFACE
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cbc3d>)
+  endif()
+  cbc3d_record_room(${folder} ${room} ${rooms})
+endfunction()
+
+# cbc3d_program(FOLDER NAME SOURCES... [ROOMS rooms below] [LIBRARIES others]) makes an executable; its folder may follow
+# the same arrows.
+function(cbc3d_program folder name)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "ROOMS;LIBRARIES")
+  set(rooms ${ARG_ROOMS})
+  list(TRANSFORM rooms PREPEND cbc3d_)
+  add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
+  target_link_libraries(${name} PRIVATE cbc3d_flags ${rooms} ${ARG_LIBRARIES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  cbc3d_record_room(${folder} ${name} ${rooms})
+endfunction()
+
+# cbc3d_tests(FOLDER NAME SOURCES... [ROOMS ...] [LIBRARIES ...]) makes a program of tests, named apart from the room, for
+# tests may use what lies beside their room and not above it.
+function(cbc3d_tests folder name)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "ROOMS;LIBRARIES")
+  cbc3d_program(${folder}:tests ${name} ${ARG_UNPARSED_ARGUMENTS}
+    ROOMS ${ARG_ROOMS} LIBRARIES ${ARG_LIBRARIES} GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST)
+endfunction()
+
+function(cbc3d_room_target result folder)
+  string(REGEX REPLACE "^mesher/" "" name ${folder})
+  string(REPLACE "/" "_" name ${name})
+  set(${result} cbc3d_${name} PARENT_SCOPE)
+endfunction()
+
+function(cbc3d_record_room folder target)
+  list(JOIN ARGN " " links)
+  set_property(GLOBAL APPEND_STRING PROPERTY CBC3D_ROOMS "${folder} ${target} ${links}\n")
+endfunction()
+
+function(cbc3d_write_rooms file)
+  get_property(rooms GLOBAL PROPERTY CBC3D_ROOMS)
+  file(WRITE ${file} "${rooms}")
+endfunction()

@@ -1,0 +1,577 @@
+#include "mesher/improve/local/edge_collapse.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/improve/local/tet_shape.hpp"
+#include "mesher/improve/local/volume_shares.hpp"
+
+namespace cbc3d {
+namespace {
+
+/// A neighbour along an interface, with the number of facets at the edge to it.
+struct SurfaceNeighbour {
+  VertexId vertex;
+  std::uint32_t facets;
+};
+
+void surface_neighbours(const std::vector<FacetAt>& facets, std::vector<SurfaceNeighbour>& neighbours) {
+  neighbours.clear();
+  for (const FacetAt& f : facets) {
+    for (const VertexId w : {f.first, f.second}) {
+      const auto found =
+          std::find_if(neighbours.begin(), neighbours.end(), [&](const auto& s) { return s.vertex == w; });
+      if (found == neighbours.end()) {
+        neighbours.push_back({w, 1});
+      } else {
+        ++found->facets;
+      }
+    }
+  }
+}
+
+std::uint32_t facets_to(const std::vector<SurfaceNeighbour>& neighbours, VertexId v) {
+  const auto found =
+      std::find_if(neighbours.begin(), neighbours.end(), [&](const auto& s) { return s.vertex == v; });
+  return found == neighbours.end() ? 0 : found->facets;
+}
+
+class EdgeCollapser {
+ public:
+  EdgeCollapser(Patch& patch, const CollapseOptions& options)
+      : patch_(patch), mesh_(patch.mesh), options_(options) {}
+
+  bool try_vertex(VertexId u) {
+    if (mesh_.locked(u) || !mesh_.in_use(u)) {
+      return false;
+    }
+    mesh_.star(u, patch_.star);
+    before_ = worst_of_star();
+    if (options_.only_bad && before_ >= options_.threshold_sine_squared) {
+      return false;
+    }
+    if (!find_class(u)) {
+      return false;
+    }
+    mesh_.neighbours(u, patch_.star, patch_.around);
+    set_limits(u);
+    return try_collapses(u) || (options_.place_anew && try_merges(u));
+  }
+
+ private:
+  [[nodiscard]] double worst_of_star() const {
+    double worst = 1;
+    for (const TetId t : patch_.star) {
+      worst = std::min(worst, mesh_.sine_squared(t));
+    }
+    return worst;
+  }
+
+  /// Interior, on an interface, on a curve where interfaces meet; false for corners and where a surface is no
+  /// manifold.
+  bool find_class(VertexId u) {
+    const MaterialSet& set = patch_.sets[u];
+    on_facets_ = set.size > 1;
+    on_curve_ = set.size > 2;
+    if (set.overflow) {
+      return false;
+    }
+    if (!on_facets_) {
+      return true;
+    }
+    mesh_.facets(u, patch_.star, patch_.facets);
+    surface_neighbours(patch_.facets, near_u_);
+    const auto ends =
+        std::count_if(near_u_.begin(), near_u_.end(), [](const auto& s) { return s.facets > 2; });
+    const bool odd = std::any_of(near_u_.begin(), near_u_.end(), [](const auto& s) { return s.facets < 2; });
+    return !odd && (on_curve_ ? ends == 2 : ends == 0 && is_one_fan());
+  }
+
+  /// True when the facets at the vertex follow each other once round it.
+  [[nodiscard]] bool is_one_fan() const {
+    const auto& facets = patch_.facets;
+    VertexId at = facets.front().second;
+    std::size_t steps = 1;
+    for (std::size_t used = 0; at != facets.front().first && steps <= facets.size(); ++steps) {
+      const auto next =
+          std::find_if(facets.begin(), facets.end(), [&](const FacetAt& f) { return f.first == at; });
+      if (next == facets.end()) {
+        return false;
+      }
+      used = static_cast<std::size_t>(next - facets.begin());
+      at = facets[used].second;
+    }
+    return steps == facets.size();
+  }
+
+  void set_limits(VertexId u) {
+    floor_ = options_.only_bad ? before_ : options_.threshold_sine_squared;
+    double mean = 0;
+    for (const VertexId w : patch_.around) {
+      mean += (mesh_.point(w) - mesh_.point(u)).norm();
+    }
+    mean /= static_cast<double>(patch_.around.size());
+    double longest = options_.longest_growth * mean;
+    if (options_.longest_mm != nullptr) {
+      for (const TetId t : patch_.star) {
+        longest = std::min(longest, (*options_.longest_mm)[mesh_.material(t)]);
+      }
+    }
+    longest_squared_ = longest * longest;
+  }
+
+  /// Draws u onto a neighbour, if one allows it.
+  bool try_collapses(VertexId u) {
+    if (on_facets_ && !points_find_hosts(u)) {
+      return false;
+    }
+    rank_targets(u);
+    return std::any_of(targets_.begin(), targets_.end(), [&](const auto& target) {
+      const VertexId v = target.second;
+      load_other(v);
+      return keeps_shape(u, v) && (!on_facets_ || facets_allow(u, v)) && collapse(u, v);
+    });
+  }
+
+  /// True when u could go without a boundary voxel losing its host.
+  bool points_find_hosts(VertexId u) {
+    hosts_.clear();
+    for (const SurfaceNeighbour& s : near_u_) {
+      hosts_.push_back(s.vertex);
+    }
+    return patch_.cover.can_release(u, nullptr, hosts_, mesh_, patch_.sets);
+  }
+
+  /// The neighbours that u may be drawn onto, best first.
+  void rank_targets(VertexId u) {
+    targets_.clear();
+    for (const VertexId v : patch_.around) {
+      if (mesh_.locked(v) || !class_allows(v)) {
+        continue;
+      }
+      const double quality = quality_at(patch_.star, u, v, {v, mesh_.point(v)});
+      if (quality > floor_) {
+        targets_.emplace_back(-quality, v);
+      }
+    }
+    std::sort(targets_.begin(), targets_.end());
+  }
+
+  [[nodiscard]] bool class_allows(VertexId v) const {
+    if (!on_facets_) {
+      return true;
+    }
+    const std::uint32_t facets = facets_to(near_u_, v);
+    return on_curve_ ? facets > 2 : facets == 2;
+  }
+
+  /// A vertex and where it is to be.
+  struct Placed {
+    VertexId vertex;
+    Vec3 at;
+  };
+
+  /// Worst angle of the tets of w that stay when those with `gone` vanish, with another vertex in the place
+  /// of w; something not above the floor where it is not better.
+  [[nodiscard]] double quality_at(std::span<const TetId> star, VertexId w, VertexId gone,
+                                  const Placed& to) const {
+    double worst = 1;
+    for (const TetId t : star) {
+      if (mesh_.has_node(t, gone)) {
+        continue;
+      }
+      const auto& nodes = mesh_.nodes(t);
+      const auto& face = kTetFace[mesh_.node_index(t, w)];
+      const Vec3& p = mesh_.point(nodes[face[0]]);
+      const Vec3& q = mesh_.point(nodes[face[1]]);
+      const Vec3& r = mesh_.point(nodes[face[2]]);
+      worst = std::min(worst, min_sine_squared(to.at, p, q, r));
+      if (worst <= floor_ || std::max({(p - to.at).squared_norm(), (q - to.at).squared_norm(),
+                                       (r - to.at).squared_norm()}) > longest_squared_) {
+        return -1;
+      }
+      if (options_.graded && !on_facets_ &&
+          !grows_slowly(to, {nodes[face[0]], nodes[face[1]], nodes[face[2]]})) {
+        return -1;
+      }
+    }
+    return worst;
+  }
+
+  /// False when an edge to one of these would be longer than it may.
+  [[nodiscard]] bool grows_slowly(const Placed& from, const std::array<VertexId, 3>& ends) const {
+    const std::vector<double>& longest = patch_.longest_mm;
+    return std::all_of(ends.begin(), ends.end(), [&](VertexId w) {
+      const double limit = 0.5 * (longest[from.vertex] + longest[w]);
+      return (from.at - mesh_.point(w)).squared_norm() <= limit * limit;
+    });
+  }
+
+  /// The star of a neighbour, and what it is joined to along interfaces.
+  void load_other(VertexId v) {
+    mesh_.star(v, patch_.star_other);
+    if (on_facets_) {
+      mesh_.facets(v, patch_.star_other, patch_.facets_other);
+      surface_neighbours(patch_.facets_other, near_v_);
+    }
+  }
+
+  /// Link condition: what both ends are joined to is joined to the edge, and along interfaces by facets.
+  bool keeps_shape(VertexId u, VertexId v) {
+    mesh_.neighbours(v, patch_.star_other, patch_.around_other);
+    on_edge_.clear();
+    for (const TetId t : patch_.star) {
+      if (mesh_.has_node(t, v)) {
+        for (const VertexId w : mesh_.nodes(t)) {
+          if (w != u && w != v && std::find(on_edge_.begin(), on_edge_.end(), w) == on_edge_.end()) {
+            on_edge_.push_back(w);
+          }
+        }
+      }
+    }
+    for (const VertexId w : patch_.around_other) {
+      if (w != u && std::find(patch_.around.begin(), patch_.around.end(), w) != patch_.around.end() &&
+          std::find(on_edge_.begin(), on_edge_.end(), w) == on_edge_.end()) {
+        return false;
+      }
+    }
+    return !on_facets_ || keeps_surface_shape(v);
+  }
+
+  bool keeps_surface_shape(VertexId v) {
+    std::size_t common = 0;
+    for (const SurfaceNeighbour& s : near_u_) {
+      const std::uint32_t at_v = facets_to(near_v_, s.vertex);
+      common += at_v > 0 ? 1 : 0;
+      if (s.vertex != v && s.facets > 2 && at_v > 2) {
+        return false;  // a curve of three edges would close up
+      }
+    }
+    return common == facets_to(near_u_, v) && !shares_far_side();
+  }
+
+  /// True when two facets, one at each end, have the same far side: the pocket between them would close.
+  [[nodiscard]] bool shares_far_side() const {
+    return std::any_of(patch_.facets.begin(), patch_.facets.end(), [&](const FacetAt& f) {
+      return std::any_of(patch_.facets_other.begin(), patch_.facets_other.end(), [&](const FacetAt& g) {
+        return (f.first == g.first && f.second == g.second) || (f.first == g.second && f.second == g.first);
+      });
+    });
+  }
+
+  /// Distance and folds.
+  bool facets_allow(VertexId u, VertexId v) {
+    const Vec3& to = mesh_.point(v);
+    return !folds(patch_.facets, mesh_.point(u), v, to) && keeps_volumes(u, v, to, false) && !strays(u, v);
+  }
+
+  /// True when no material round u, and round v when both move, gains or loses much of what it has there:
+  /// thin parts are worn away otherwise, whose surfaces stay near the boundary all the same.
+  bool keeps_volumes(VertexId u, VertexId v, const Vec3& to, bool both_move) {
+    shares_.clear();
+    shares_.add_gains(mesh_, patch_.facets, {u, kNoVertex}, to);
+    shares_.add_volumes(mesh_, patch_.star, kNoVertex);
+    if (both_move) {
+      shares_.add_gains(mesh_, patch_.facets_other, {v, u}, to);
+      shares_.add_volumes(mesh_, patch_.star_other, u);
+    }
+    return shares_.largest_loss() <= options_.volume_share;
+  }
+
+  /// True when `holds(facet, p, q)` for a facet with sides to p and q that stays; those with `gone` vanish.
+  template <typename Condition>
+  [[nodiscard]] bool any_staying(const std::vector<FacetAt>& facets, VertexId gone,
+                                 const Condition& holds) const {
+    return std::any_of(facets.begin(), facets.end(), [&](const FacetAt& f) {
+      return f.first != gone && f.second != gone && holds(f, mesh_.point(f.first), mesh_.point(f.second));
+    });
+  }
+
+  /// True when a facet that stays turns too far while its vertex goes from one place to another.
+  [[nodiscard]] bool folds(const std::vector<FacetAt>& facets, const Vec3& from, VertexId gone,
+                           const Vec3& to) const {
+    return any_staying(facets, gone, [&](const FacetAt&, const Vec3& p, const Vec3& q) {
+      const Vec3 old_normal = (p - from).cross(q - from);
+      const Vec3 new_normal = (p - to).cross(q - to);
+      return !(old_normal.dot(new_normal) > 0.5 * old_normal.norm() * new_normal.norm());
+    });
+  }
+
+  /// True when a new facet lies farther from the boundary than allowed and than the old ones.
+  bool strays(VertexId u, VertexId v) {
+    const Vec3& from = mesh_.point(u);
+    const Vec3& to = mesh_.point(v);
+    double limit = -1;
+    return any_staying(patch_.facets, v, [&](const FacetAt& f, const Vec3& p, const Vec3& q) {
+      const double after = patch_.facet_deviation(to, p, q, f.inner, f.outer);
+      if (after > patch_.guards.deviation_mm && limit < 0) {
+        limit = largest_deviation(from);
+      }
+      return after > patch_.guards.deviation_mm && after > limit;
+    });
+  }
+
+  [[nodiscard]] double largest_deviation(const Vec3& from) const {
+    double largest = 0;
+    for (const FacetAt& f : patch_.facets) {
+      largest = std::max(largest, patch_.facet_deviation(from, mesh_.point(f.first), mesh_.point(f.second),
+                                                         f.inner, f.outer));
+    }
+    return largest;
+  }
+
+  /// Draws u and a neighbour of the same class together at a place between them.
+  bool try_merges(VertexId u) {
+    targets_.clear();
+    for (const VertexId v : patch_.around) {
+      if (!mesh_.locked(v) && class_allows(v) && has_class_of(u, v)) {
+        targets_.emplace_back((mesh_.point(u) - mesh_.point(v)).squared_norm(), v);
+      }
+    }
+    std::sort(targets_.begin(), targets_.end());
+    return std::any_of(targets_.begin(), targets_.end(), [&](const auto& target) {
+      return on_facets_ ? try_merge_on_facets(u, target.second) : try_merge_inside(u, target.second);
+    });
+  }
+
+  [[nodiscard]] bool has_class_of(VertexId u, VertexId v) const {
+    const MaterialSet& a = patch_.sets[u];
+    const MaterialSet& b = patch_.sets[v];
+    return !b.overflow && a.size == b.size &&
+           std::equal(a.ids.begin(), a.ids.begin() + a.size, b.ids.begin());
+  }
+
+  bool try_merge_inside(VertexId u, VertexId v) {
+    const Vec3 middle = 0.5 * (mesh_.point(u) + mesh_.point(v));
+    if (quality_at(patch_.star, u, v, {v, middle}) <= floor_) {
+      return false;
+    }
+    load_other(v);
+    return quality_at(patch_.star_other, v, u, {v, middle}) > floor_ && keeps_shape(u, v) &&
+           merge(u, {v, middle});
+  }
+
+  bool try_merge_on_facets(VertexId u, VertexId v) {
+    load_other(v);
+    const auto ends =
+        std::count_if(near_v_.begin(), near_v_.end(), [](const auto& s) { return s.facets > 2; });
+    if (ends != (on_curve_ ? 2 : 0)) {
+      return false;
+    }
+    if (!find_stranded_points(u, v)) {
+      return false;
+    }
+    merging_ = {u, v};
+    for (const double share : {0.5, 1.0, 0.0}) {
+      Placed to{v, mesh_.point(u) + share * (mesh_.point(v) - mesh_.point(u))};
+      if (!find_place(to.at)) {
+        return false;
+      }
+      if (merged_quality(u, to) > floor_ && merged_facets_allow(u, to)) {
+        return keeps_shape(u, v) && merge(u, to);
+      }
+    }
+    return false;
+  }
+
+  /// The points of u and v that are out of reach of the vertices around; false where no place is near all.
+  bool find_stranded_points(VertexId u, VertexId v) {
+    hosts_.clear();
+    for (const auto* near : {&near_u_, &near_v_}) {
+      for (const SurfaceNeighbour& s : *near) {
+        if (s.vertex != u && s.vertex != v &&
+            std::find(hosts_.begin(), hosts_.end(), s.vertex) == hosts_.end()) {
+          hosts_.push_back(s.vertex);
+        }
+      }
+    }
+    if (!patch_.cover.find_stranded(u, v, hosts_, mesh_, patch_.sets)) {
+      return false;
+    }
+    pairs_.clear();
+    for (const FacetAt& f : patch_.facets) {
+      const std::array<MaterialId, 2> pair = {f.inner, f.outer};
+      if (std::find(pairs_.begin(), pairs_.end(), pair) == pairs_.end()) {
+        pairs_.push_back(pair);
+      }
+    }
+    return true;
+  }
+
+  /// Projects a place by turns into reach of the stranded points and onto the boundaries; false when it does
+  /// not come to rest.
+  bool find_place(Vec3& place) {
+    constexpr int kTurns = 5;
+    for (int turn = 0; turn < kTurns; ++turn) {
+      if (!draw_into_reach(place)) {
+        return false;
+      }
+      double deviation = 0;
+      for (const auto& [inner, outer] : pairs_) {
+        const BoundarySample s = patch_.boundary.sample(place, inner, outer);
+        if (!std::isfinite(s.deviation_mm)) {
+          return false;
+        }
+        deviation = std::max(deviation, s.deviation_mm);
+        place -= s.distance_mm * s.normal;
+      }
+      if (deviation <= patch_.guards.deviation_mm && farthest_stranded(place).second <= 1) {
+        keep_volume(place);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Shifts a place to where neither side of the one interface loses volume, if it is near and in reach.
+  void keep_volume(Vec3& place) const {
+    if (pairs_.size() != 1) {
+      return;
+    }
+    Vec3 area;
+    double lost = 0;
+    const auto add = [&](const std::vector<FacetAt>& facets, VertexId v, VertexId known) {
+      for (const FacetAt& f : facets) {
+        if (f.first != known && f.second != known) {
+          const Vec3 a = mesh_.point(v) - place;
+          const Vec3 b = mesh_.point(f.first) - place;
+          const Vec3 c = mesh_.point(f.second) - place;
+          lost += a.dot(b.cross(c));
+          area += (b - a).cross(c - a);
+        }
+      }
+    };
+    add(patch_.facets, merging_[0], kNoVertex);
+    add(patch_.facets_other, merging_[1], merging_[0]);
+    const double squared = area.squared_norm();
+    if (!(squared > 0) || lost * lost > patch_.guards.deviation_mm * patch_.guards.deviation_mm * squared) {
+      return;
+    }
+    const Vec3 to = place + (lost / squared) * area;
+    if (farthest_stranded(to).second <= 1) {
+      place = to;
+    }
+  }
+
+  bool draw_into_reach(Vec3& place) const {
+    constexpr int kSteps = 10;
+    for (int step = 0; step < kSteps; ++step) {
+      const auto& [point, ratio] = farthest_stranded(place);
+      if (ratio <= 1) {
+        return true;
+      }
+      const Vec3 centre = patch_.cover.centre(point);
+      place = centre + (0.98 / std::sqrt(ratio)) * (place - centre);
+    }
+    return false;
+  }
+
+  /// The stranded point that is farthest out of reach, and its squared distance as a part of what it may be.
+  [[nodiscard]] std::pair<PointId, double> farthest_stranded(const Vec3& place) const {
+    std::pair<PointId, double> farthest = {kNoPoint, 0};
+    for (const PointId p : patch_.cover.stranded()) {
+      const double ratio = (patch_.cover.centre(p) - place).squared_norm() / patch_.cover.reach_squared(p);
+      if (ratio > farthest.second) {
+        farthest = {p, ratio};
+      }
+    }
+    return farthest;
+  }
+
+  [[nodiscard]] double merged_quality(VertexId u, const Placed& to) const {
+    const double quality = quality_at(patch_.star, u, to.vertex, to);
+    return quality > floor_ ? std::min(quality, quality_at(patch_.star_other, to.vertex, u, to)) : quality;
+  }
+
+  [[nodiscard]] bool merged_facets_allow(VertexId u, const Placed& to) {
+    const VertexId v = to.vertex;
+    return !folds(patch_.facets, mesh_.point(u), v, to.at) &&
+           !folds(patch_.facets_other, mesh_.point(v), u, to.at) && keeps_volumes(u, v, to.at, true) &&
+           !facets_stray(patch_.facets, mesh_.point(u), v, to.at) &&
+           !facets_stray(patch_.facets_other, mesh_.point(v), u, to.at);
+  }
+
+  /// True when a facet that stays gets farther from the boundary than allowed and than it was.
+  [[nodiscard]] bool facets_stray(const std::vector<FacetAt>& facets, const Vec3& from, VertexId gone,
+                                  const Vec3& to) const {
+    return any_staying(facets, gone, [&](const FacetAt& f, const Vec3& p, const Vec3& q) {
+      const double after = patch_.facet_deviation(to, p, q, f.inner, f.outer);
+      return after > patch_.guards.deviation_mm &&
+             after > patch_.facet_deviation(from, p, q, f.inner, f.outer);
+    });
+  }
+
+  bool merge(VertexId u, const Placed& to) {
+    const VertexId v = to.vertex;
+    const Vec3 before = mesh_.point(v);
+    mesh_.move(v, to.at);
+    if (!draw_tets(u, v)) {
+      mesh_.move(v, before);
+      return false;
+    }
+    if (on_facets_) {
+      patch_.cover.commit_merge(u, v);
+    }
+    return true;
+  }
+
+  bool collapse(VertexId u, VertexId v) {
+    if (!draw_tets(u, v)) {
+      return false;
+    }
+    if (on_facets_) {
+      patch_.cover.commit(u);
+    }
+    return true;
+  }
+
+  /// Gives the tets of u to v; those of both vanish.
+  bool draw_tets(VertexId u, VertexId v) {
+    patch_.fresh.clear();
+    for (const TetId t : patch_.star) {
+      if (!mesh_.has_node(t, v)) {
+        std::array<VertexId, 4> nodes = mesh_.nodes(t);
+        nodes[mesh_.node_index(t, u)] = v;
+        patch_.fresh.push_back({nodes, mesh_.material(t)});
+      }
+    }
+    const bool near_facets =
+        on_facets_ || std::any_of(patch_.around.begin(), patch_.around.end(),
+                                  [&](VertexId w) { return !mesh_.locked(w) && patch_.on_boundary(w); });
+    if (!mesh_.replace(patch_.star, patch_.fresh)) {
+      return false;
+    }
+    patch_.sets[u] = {};
+    if (near_facets) {
+      patch_.renew_sets(patch_.fresh);
+    }
+    return true;
+  }
+
+  Patch& patch_;
+  TetComplex& mesh_;
+  const CollapseOptions& options_;
+  bool on_facets_ = false, on_curve_ = false;
+  double before_ = 0;           // worst angle of the star
+  double floor_ = 0;            // which angles have to be above
+  double longest_squared_ = 0;  // of new edges
+  std::vector<SurfaceNeighbour> near_u_, near_v_;
+  std::vector<std::pair<double, VertexId>> targets_;
+  std::vector<VertexId> on_edge_, hosts_;
+  std::vector<std::array<MaterialId, 2>> pairs_;
+  VolumeShares shares_;
+  std::array<VertexId, 2> merging_{};
+};
+
+}  // namespace
+
+std::size_t collapse_edges(Patch& patch, const CollapseOptions& options) {
+  EdgeCollapser collapser(patch, options);
+  std::size_t removed = 0;
+  for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
+    removed += collapser.try_vertex(v) ? 1 : 0;
+  }
+  return removed;
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,74 @@
+#include "mesher/improve/local/graded_sizes.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+#include "mesher/topology/tet_adjacency.hpp"
+
+namespace cbc3d {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The mean length of the interface edges at every vertex, infinite where it has none. An edge counts as
+/// often as it has facets, as do all of its ends' others on a closed surface.
+std::vector<double> interface_sizes(const MaterialMesh& mesh) {
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  std::vector<double> sum(mesh.points.size(), 0);
+  std::vector<std::uint32_t> edges(mesh.points.size(), 0);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      const TetId other = neighbours[t][f];
+      if (other != kNoTet && mesh.materials[other] >= mesh.materials[t]) {
+        continue;
+      }
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const VertexId a = mesh.tets[t][kTetFace[f][corner]];
+        const VertexId b = mesh.tets[t][kTetFace[f][(corner + 1) % 3]];
+        const double length = (mesh.points[a] - mesh.points[b]).norm();
+        for (const VertexId v : {a, b}) {
+          sum[v] += length;
+          ++edges[v];
+        }
+      }
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) {
+    sum[v] = edges[v] > 0 ? sum[v] / edges[v] : kInfinity;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation) {
+  std::vector<double> size = interface_sizes(mesh);
+  const VertexTets at = tets_of_vertices(mesh.tets, mesh.points.size());
+  using Known = std::pair<double, VertexId>;
+  std::priority_queue<Known, std::vector<Known>, std::greater<>> open;  // smallest first
+  for (std::size_t v = 0; v < size.size(); ++v) {
+    if (size[v] < kInfinity) {
+      open.emplace(size[v], static_cast<VertexId>(v));
+    }
+  }
+  while (!open.empty()) {
+    const auto [here, v] = open.top();
+    open.pop();
+    if (here > size[v]) {
+      continue;  // found a shorter way since
+    }
+    for (std::uint32_t i = at.first[v]; i < at.first[v + 1]; ++i) {
+      for (const VertexId w : mesh.tets[at.tets[i]]) {
+        const double there = here + gradation * (mesh.points[w] - mesh.points[v]).norm();
+        if (there < size[w]) {
+          size[w] = there;
+          open.emplace(there, w);
+        }
+      }
+    }
+  }
+  return size;
+}
+
+}  // namespace cbc3d

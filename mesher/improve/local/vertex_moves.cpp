@@ -1,0 +1,361 @@
+#include "mesher/improve/local/vertex_moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/improve/local/star_height.hpp"
+#include "mesher/improve/local/tet_shape.hpp"
+
+namespace cbc3d {
+namespace {
+
+void load_link(const TetComplex& mesh, VertexId v, std::span<const TetId> star, Link& link) {
+  link.clear();
+  for (const TetId t : star) {
+    const auto& nodes = mesh.nodes(t);
+    const auto& face = kTetFace[mesh.node_index(t, v)];
+    link.push_back({mesh.point(nodes[face[0]]), mesh.point(nodes[face[1]]), mesh.point(nodes[face[2]])});
+  }
+}
+
+/// Squared mean distance of a point to the link's nodes.
+double mean_squared_distance(const Link& link, const Vec3& x) {
+  double sum = 0;
+  for (const auto& face : link) {
+    sum += (face[0] - x).squared_norm() + (face[1] - x).squared_norm() + (face[2] - x).squared_norm();
+  }
+  return sum / (3.0 * static_cast<double>(link.size()));
+}
+
+/// A boundary near a vertex, as a plane through it.
+struct Plane {
+  Vec3 normal;
+  double offset_mm;  // distance at the vertex
+};
+
+/// Of a plane's squared offset, per mm^2.
+struct Weights {
+  double boundary, flat;
+};
+
+enum class Step { taken, none_needed, refused };
+
+struct VertexMover {
+  Patch& patch;
+  Link link;
+  std::vector<Plane> planes;
+  std::vector<Plane> flat;   // where the neighbours would have the vertex
+  std::vector<Vec3> normal;  // of vertices on one interface alone, zero elsewhere; empty: no smoothness
+  std::vector<std::array<MaterialId, 2>> pairs;
+
+  explicit VertexMover(Patch& p) : patch(p) {}
+
+  /// Loads the star and the boundaries of v; false when v cannot be moved.
+  bool load(VertexId v) {
+    TetComplex& mesh = patch.mesh;
+    if (mesh.locked(v) || !mesh.in_use(v)) {
+      return false;
+    }
+    mesh.star(v, patch.star);
+    load_link(mesh, v, patch.star, link);
+    pairs.clear();
+    planes.clear();
+    if (patch.on_boundary(v)) {
+      mesh.facets(v, patch.star, patch.facets);
+      for (const FacetAt& f : patch.facets) {
+        const std::array<MaterialId, 2> pair = {f.inner, f.outer};
+        if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) {
+          pairs.push_back(pair);
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Planes of the boundaries at x; false when one of them is not to be found.
+  bool find_planes(const Vec3& x) {
+    planes.clear();
+    for (const auto& [inner, outer] : pairs) {
+      const BoundarySample s = patch.boundary.sample(x, inner, outer);
+      if (!std::isfinite(s.deviation_mm)) {
+        return false;
+      }
+      planes.push_back({s.normal, s.distance_mm});
+    }
+    return true;
+  }
+
+  /// The normals of all vertices that are on one interface and may move: locked ones do not know all of their
+  /// facets. Weights by Max (J. Graphics Tools 4, 1999), exact on spheres however the facets are cut.
+  void find_normals() {
+    const TetComplex& mesh = patch.mesh;
+    normal.assign(mesh.vertex_count(), {});
+    std::vector<double> length(mesh.vertex_count(), 0);  // of the sum, were all facets parallel
+    for (TetId t = 0; t < mesh.tet_slots(); ++t) {
+      for (unsigned n = 0; mesh.alive(t) && n < 4; ++n) {
+        if (mesh.material(t) > mesh.material_across(t, n)) {
+          add_normals(mesh.nodes(t), n, length);
+        }
+      }
+    }
+    constexpr double kLeast = 0.6;  // a tip, a sharp edge or a pinch has no normal
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+      const double norm = normal[v].norm();
+      const bool known = !mesh.locked(v) && patch.sets[v].size == 2 && norm > kLeast * length[v];
+      normal[v] = known ? normal[v] / norm : Vec3{};
+    }
+  }
+
+  void add_normals(const std::array<VertexId, 4>& nodes, unsigned n, std::vector<double>& length) {
+    std::array<Vec3, 3> side{};  // side c goes from corner c to the next
+    for (unsigned c = 0; c < 3; ++c) {
+      side[c] = patch.mesh.point(nodes[kTetFace[n][(c + 1) % 3]]) - patch.mesh.point(nodes[kTetFace[n][c]]);
+    }
+    const Vec3 vector = side[0].cross(side[1]);
+    for (unsigned c = 0; c < 3; ++c) {
+      const VertexId v = nodes[kTetFace[n][c]];
+      const Vec3 weighted = vector / (side[c].squared_norm() * side[(c + 2) % 3].squared_norm());
+      normal[v] += weighted;
+      length[v] += weighted.norm();
+    }
+  }
+
+  /// What the neighbours on the same interface say of v at x.
+  void find_flat(VertexId v, const Vec3& x) {
+    flat.clear();
+    if (normal.empty() || pairs.size() != 1 || normal[v].squared_norm() == 0) {
+      return;
+    }
+    for (const VertexId w : possible_hosts()) {
+      const Vec3 sum = normal[v] + normal[w];
+      if (normal[w].squared_norm() > 0 && sum.squared_norm() > 1) {
+        const Vec3 m = sum.normalized();
+        flat.push_back({m, m.dot(x - patch.mesh.point(w))});
+      }
+    }
+  }
+
+  [[nodiscard]] double deviation(const Vec3& x) const {
+    double largest = 0;
+    for (const auto& [inner, outer] : pairs) {
+      largest = std::max(largest, patch.boundary.sample(x, inner, outer).deviation_mm);
+    }
+    return largest;
+  }
+
+  /// True when x is near enough to its boundaries, or nearer (in the mean of squares) than the planes say the
+  /// vertex was.
+  [[nodiscard]] bool stays_near(const Vec3& x, double near_mm) const {
+    double before = 0;
+    for (const Plane& plane : planes) {
+      before += plane.offset_mm * plane.offset_mm;
+    }
+    double after = 0;
+    double largest = 0;
+    for (const auto& [inner, outer] : pairs) {
+      const double d = patch.boundary.sample(x, inner, outer).deviation_mm;
+      after += d * d;
+      largest = std::max(largest, d);
+    }
+    return largest <= near_mm || after <= before;
+  }
+
+  /// Energy at x + step, or a negative number when a tet would turn over.
+  [[nodiscard]] double energy(const Vec3& x, const Vec3& step, const Weights& weights) const {
+    double sum = 0;
+    const Vec3 at = x + step;
+    for (const auto& face : link) {
+      const double e = shape_energy(at, face[0], face[1], face[2]);
+      if (e < 0) {
+        return -1;
+      }
+      sum += e;
+    }
+    const auto add_planes = [&](const std::vector<Plane>& some, double weight) {
+      for (const Plane& plane : some) {
+        const double offset = plane.offset_mm + plane.normal.dot(step);
+        sum += 0.5 * weight * offset * offset;
+      }
+    };
+    add_planes(planes, weights.boundary);
+    add_planes(flat, weights.flat);
+    return sum;
+  }
+
+  /// Neighbours of v on boundaries, which may take over its points.
+  [[nodiscard]] std::span<const VertexId> possible_hosts() {
+    patch.around.clear();
+    for (const FacetAt& f : patch.facets) {
+      for (const VertexId w : {f.first, f.second}) {
+        if (std::find(patch.around.begin(), patch.around.end(), w) == patch.around.end()) {
+          patch.around.push_back(w);
+        }
+      }
+    }
+    return patch.around;
+  }
+
+  /// Puts v at `to` when its points keep hosts.
+  bool move(VertexId v, const Vec3& to) {
+    if (patch.on_boundary(v)) {
+      if (!patch.cover.can_release(v, &to, possible_hosts(), patch.mesh, patch.sets)) {
+        return false;
+      }
+      patch.cover.commit(v);
+    }
+    patch.mesh.move(v, to);
+    return true;
+  }
+
+  bool strays(VertexId v, double near_mm) { return load(v) && deviation(patch.mesh.point(v)) > near_mm; }
+
+  bool relax(VertexId v, const RelaxOptions& options) {
+    if (!load(v)) {
+      return false;
+    }
+    const Vec3 x = patch.mesh.point(v);
+    if (!pairs.empty() && !find_planes(x)) {
+      return false;
+    }
+    find_flat(v, x);
+    Step step = newton(v, x, options);
+    if (step == Step::refused && !flat.empty()) {
+      flat.clear();
+      step = newton(v, x, options);
+    }
+    return step == Step::taken;
+  }
+
+  [[nodiscard]] Weights weights_of(const RelaxOptions& options) const {
+    const double weight = options.surface_weight / (patch.guards.scale_mm * patch.guards.scale_mm);
+    if (flat.empty()) {
+      return {weight, 0};
+    }
+    return {(1 - options.smoothness) * weight,
+            options.smoothness * weight / static_cast<double>(flat.size())};
+  }
+
+  /// Takes the step from x, if there is one; with smoothness where `flat` says something.
+  Step newton(VertexId v, const Vec3& x, const RelaxOptions& options) {
+    const Weights weights = weights_of(options);
+    ShapeTerm sum;
+    for (const auto& face : link) {
+      if (!add_shape_term(x, face[0], face[1], face[2], sum)) {
+        return Step::refused;
+      }
+    }
+    for (const Plane& plane : planes) {
+      add_plane_term(plane.normal, plane.offset_mm, weights.boundary, sum);
+    }
+    for (const Plane& plane : flat) {
+      add_plane_term(plane.normal, plane.offset_mm, weights.flat, sum);
+    }
+    const double near_mm = flat.empty() ? patch.guards.deviation_mm : options.smoothness_cap_mm;
+    Vec3 step = newton_step(sum);
+    const double length = step.norm();
+    const double longest = options.max_step * std::sqrt(mean_squared_distance(link, x));
+    if (!(length > options.skip_below_mm)) {
+      return Step::none_needed;
+    }
+    if (length > longest) {
+      step *= longest / length;
+    }
+    for (int attempt = 0; attempt < 5; ++attempt, step *= 0.5) {
+      const double after = energy(x, step, weights);
+      if (after >= 0 && after < sum.energy && stays_near(x + step, near_mm) && move(v, x + step)) {
+        return Step::taken;
+      }
+    }
+    return Step::refused;
+  }
+
+  bool climb(VertexId v, double goal) {
+    if (!load(v)) {
+      return false;
+    }
+    const Vec3 start = patch.mesh.point(v);
+    const double h = std::sqrt(mean_squared_distance(link, start));
+    double best = worst_height(link, start, -1e300);
+    if (best >= goal) {
+      return false;
+    }
+    const double limit = std::max(patch.guards.deviation_mm, deviation(start));
+    bool moved = false;
+    for (double length = 0.3 * h; length > 0.004 * h; length *= 0.5) {
+      for (int turn = 0; turn < 2 && best < goal && climb_step(v, length, limit, best); ++turn) {
+        moved = true;
+      }
+    }
+    return moved;
+  }
+
+  /// Takes the first step of a length that lifts the worst angle.
+  bool climb_step(VertexId v, double length, double limit, double& best) {
+    const Vec3 x = patch.mesh.point(v);
+    const Vec3 up = steepest_ascent(link, x, length);
+    for (const Vec3& direction : climb_directions(up)) {
+      const Vec3 to = x + length * direction;
+      const double after = worst_height(link, to, best);
+      if (after > best && (pairs.empty() || deviation(to) <= limit) && move(v, to)) {
+        best = after;
+        return true;
+      }
+    }
+    return false;
+  }
+};
+
+}  // namespace
+
+std::size_t relax_vertices(Patch& patch, const RelaxOptions& options) {
+  VertexMover mover(patch);
+  if (options.smoothness > 0) {
+    mover.find_normals();
+  }
+  std::size_t moved = 0;
+  for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
+    moved += mover.relax(v, options) ? 1 : 0;
+  }
+  return moved;
+}
+
+std::size_t pull_strays(Patch& patch, const RelaxOptions& options) {
+  VertexMover mover(patch);
+  const double near_mm = options.smoothness > 0
+                             ? std::max(patch.guards.deviation_mm, options.smoothness_cap_mm)
+                             : patch.guards.deviation_mm;
+  std::size_t moved = 0;
+  std::vector<VertexId> around;
+  for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
+    for (int turn = 0; turn < 4 && patch.on_boundary(v) && mover.strays(v, near_mm); ++turn) {
+      const std::size_t before = moved;
+      moved += mover.relax(v, options) ? 1 : 0;
+      patch.mesh.star(v, patch.star);
+      patch.mesh.neighbours(v, patch.star, around);
+      for (const VertexId w : around) {
+        moved += mover.relax(w, options) ? 1 : 0;
+      }
+      moved += mover.relax(v, options) ? 1 : 0;
+      if (moved == before) {
+        break;
+      }
+    }
+  }
+  return moved;
+}
+
+std::size_t climb_vertices(Patch& patch, double goal_sine_squared) {
+  VertexMover mover(patch);
+  std::size_t moved = 0;
+  for (TetId t = 0; t < patch.mesh.tet_slots(); ++t) {
+    if (!patch.mesh.alive(t)) {
+      continue;
+    }
+    for (std::size_t n = 0; n < 4 && patch.mesh.sine_squared(t) < goal_sine_squared; ++n) {
+      moved += mover.climb(patch.mesh.nodes(t)[n], goal_sine_squared) ? 1 : 0;
+    }
+  }
+  return moved;
+}
+
+}  // namespace cbc3d

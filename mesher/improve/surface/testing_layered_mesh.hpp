@@ -1,0 +1,85 @@
+// A box of small tets in two layers, and what an image of it would say.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/improve/surface/relabel_tets.hpp"
+#include "mesher/testing/mesh_checks.hpp"
+
+namespace cbc3d::testing {
+
+/// n cubes along each axis, six tets each; material 1 below the plane z = level, 2 above.
+inline MaterialMesh two_layers(int n, double level) {
+  MaterialMesh mesh;
+  const auto vertex = [&](int i, int j, int k) {
+    return static_cast<VertexId>((k * (n + 1) + j) * (n + 1) + i);
+  };
+  for (int k = 0; k <= n; ++k) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) mesh.points.push_back({1.0 * i, 1.0 * j, 1.0 * k});
+    }
+  }
+  constexpr std::array<std::array<int, 3>, 6> kOrders = {
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  for (int cube = 0; cube < n * n * n; ++cube) {
+    const std::array<int, 3> low = {cube % n, cube / n % n, cube / (n * n)};
+    for (std::size_t o = 0; o < kOrders.size(); ++o) {
+      std::array<VertexId, 4> tet{};
+      std::array<int, 3> at = low;
+      tet[0] = vertex(at[0], at[1], at[2]);
+      for (std::size_t step = 0; step < 3; ++step) {
+        ++at[static_cast<std::size_t>(kOrders[o][step])];
+        tet[step + 1] = vertex(at[0], at[1], at[2]);
+      }
+      if (o >= 3) std::swap(tet[2], tet[3]);  // odd orders are left-handed
+      mesh.tets.push_back(tet);
+      mesh.materials.push_back(low[2] < level ? 1 : 2);
+    }
+  }
+  return mesh;
+}
+
+/// Takes out the layer of cubes above z = 2 of n layers, and moves the vertex (3, 3, 2) below the gap to
+/// `tip`.
+inline void open_gap(MaterialMesh& mesh, int n, const Vec3& tip) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double lowest = n;
+    for (const VertexId v : mesh.tets[t]) lowest = std::min(lowest, mesh.points[v].z);
+    if (lowest != 2) {
+      mesh.tets[kept] = mesh.tets[t];
+      mesh.materials[kept++] = mesh.materials[t];
+    }
+  }
+  mesh.tets.resize(kept);
+  mesh.materials.resize(kept);
+  *std::find(mesh.points.begin(), mesh.points.end(), Vec3{3, 3, 2}) = tip;
+}
+
+inline std::size_t faults(const MaterialMesh& mesh) {
+  std::size_t sum = 0;
+  for (const MaterialId m : {1, 2}) {
+    const auto of_label = faults_of_surface(surface_of_label(mesh.tets, mesh.materials, MaterialId{m}));
+    sum += of_label.edges + of_label.vertices;
+  }
+  return sum;
+}
+
+/// The plane z = level, as two_layers has it, is where materials 1 and 2 meet; the sides of the box of n
+/// cubes bound both.
+inline ImagePlaces plane_at(int n, double level, double near) {
+  const auto outside = [n](const Vec3& p) {
+    return std::min({p.x, p.y, p.z, n - p.x, n - p.y, n - p.z}) <= 0;
+  };
+  return {{0, 1, 2},
+          [=](const Vec3& at, MaterialId m) {
+            return m == kBackground || outside(at) || std::fabs(at.z - level) <= near;
+          },
+          [=](const Vec3& at, MaterialId m) -> std::optional<Vec3> {
+            return m == kBackground ? at : Vec3{at.x, at.y, level};
+          },
+          [=](const Vec3& at) { return MaterialId{static_cast<MaterialId>(at.z < level ? 1 : 2)}; }};
+}
+
+}  // namespace cbc3d::testing

@@ -1,0 +1,540 @@
+#include "mesher/lattice/refine_lattice.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+
+#include "mesher/domain/coverage.hpp"
+#include "mesher/domain/image_boundary.hpp"
+#include "mesher/domain/size_rank.hpp"
+#include "mesher/lattice/check_topology.hpp"
+#include "mesher/lattice/fidelity_account.hpp"
+#include "mesher/lattice/lattice_places.hpp"
+#include "mesher/lattice/red_green.hpp"
+#include "mesher/lattice/select_candidate.hpp"
+#include "mesher/lattice/voxel_raster.hpp"
+
+namespace cbc3d {
+namespace {
+
+class Refiner {
+ public:
+  Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options)
+      : Refiner(lattice, image, options, count_materials(image)) {}
+
+  Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
+          const MaterialVoxels& voxels)
+      : lattice_(lattice),
+        image_(image),
+        options_(options),
+        raster_(image.frame, lattice.frame),
+        account_(image, raster_, voxels.count),
+        boundary_(image, {}),
+        red_green_(lattice),
+        follower_(lattice),
+        rank_(rank_by_size(voxels, BackgroundRank::highest)) {
+    for (std::size_t m = 0; m < image.material_count(); ++m) {
+      const auto own = options.material_fidelity.find(image.labels[m]);
+      result_.fidelity.push_back({static_cast<MaterialId>(m), image.labels[m],
+                                  own != options.material_fidelity.end() ? own->second : options.fidelity, 0,
+                                  account_.image_voxels(m), 0});
+    }
+    if (options.max_distance_mm > 0 && options.each_interface) {
+      interfaces_.emplace(image);
+    } else if (options.max_distance_mm > 0) {
+      coverage_.emplace(image);
+    }
+    if (interfaces_ || coverage_) {
+      places_.emplace(image.frame, lattice.frame);
+    }
+  }
+
+  RefineResult run(const std::function<void(int, std::size_t)>& on_round) {
+    for (result_.rounds = 1;; ++result_.rounds) {
+      follow_lattice();
+      label_by_centroid();
+      judge();
+      mark_oversized();
+      on_round(result_.rounds, result_.mesh.tets.size());
+      if (mark() == 0 || result_.rounds == options_.max_rounds || exceeds_budget()) {
+        break;
+      }
+      red_green_.refine(marked_);
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  /// Brings the mesh up to the lattice, and what is known of its tets to their new numbers.
+  void follow_lattice() {
+    CandidateMesh& mesh = result_.mesh;
+    const UnsetVector<TetId> number = follower_.renumber();
+    forget_removed(number);
+    follower_.rebuild(mesh, number);
+    judged_ = renumbered(judged_, number, mesh.tets.size(), kNotJudged);
+    centroid_material_ = renumbered(centroid_material_, number, mesh.tets.size(), kBackground);
+    foreign_ = renumbered(foreign_, number, mesh.tets.size(), ForeignMaterials{0});
+    append_local_points(lattice_, points_);
+    touched_.resize(points_.size(), 1);
+    mesh.unsure.resize(points_.size(), 1);
+    stray_verdict_.resize(points_.size(), 0);
+  }
+
+  /// Takes the tets that are gone out of the account.
+  void forget_removed(const UnsetVector<TetId>& number) {
+    touched_.assign(points_.size(), 0);
+    tally(number.size(), [&](std::size_t t, FidelityAccount::Changes& changes) {
+      if (number[t] == kNoTet) {
+        touch_nodes(t);
+        leave_account(t, changes);
+      }
+    });
+  }
+
+  /// The material of a tet is that of the image at its centroid: the one whose signed distance is positive
+  /// there.
+  void label_by_centroid() {
+    CandidateMesh& mesh = result_.mesh;
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      if (judged_[t] == kNotJudged) {
+        Vec3 centroid;
+        for (const VertexId v : mesh.tets.nodes[t]) {
+          centroid += 0.25 * points_[v];
+        }
+        centroid_material_[t] =
+            options_.smooth_labels ? boundary_.material_at(centroid) : image_.at_local(centroid);
+      }
+    }
+    mesh.materials.assign(centroid_material_.begin(), centroid_material_.end());
+    if (options_.one_face_rule) {
+      select_candidate(mesh.neighbours, rank_, mesh.materials);
+    }
+  }
+
+  /// True while what is known of the tet is of another material than it has now, or nothing.
+  [[nodiscard]] bool is_changed(std::size_t t) const {
+    return judged_[t] != result_.mesh.materials[t];
+  }
+
+  /// Judges the mesh by its materials and marks what is to be split. What depends on nothing but tets that
+  /// are as they were at the last judgement is not computed again: of those, none is marked that can be
+  /// split, for they would have been split.
+  void judge() {
+    marked_.assign(lattice_.reds.size(), 0);
+    touch_changed();
+    find_uncovered_voxels();
+    measure_fidelity();
+    mark_uncovered();
+    mark_strays();
+    const std::vector<MaterialId>& materials = result_.mesh.materials;
+#pragma omp parallel for schedule(static)
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      judged_[t] = materials[t];
+    }
+    std::fill(touched_.begin(), touched_.end(), 0);
+  }
+
+  void touch_changed() {
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      if (is_changed(t)) {
+        touch_nodes(t);
+      }
+    }
+    std::vector<std::uint8_t>& unsure = result_.mesh.unsure;
+    for (std::size_t v = 0; v < touched_.size(); ++v) {
+      unsure[v] |= touched_[v];
+    }
+  }
+
+  void touch_nodes(std::size_t t) {
+    for (const VertexId v : result_.mesh.tets.nodes[t]) {
+      set_flag(touched_[v]);
+    }
+  }
+
+  /// Several threads may set the same flag; they write the same value.
+  static void set_flag(std::uint8_t& flag) {
+    std::atomic_ref<std::uint8_t>(flag).store(1, std::memory_order_relaxed);
+  }
+
+  void find_uncovered_voxels() {
+    const CandidateMesh& mesh = result_.mesh;
+    if (interfaces_) {
+      sets_.resize(points_.size());
+      renew_vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, touched_, sets_);
+      interfaces_->update(sets_, points_, options_.max_distance_mm);
+    }
+    if (coverage_) {
+      coverage_->update(surface_vertices(mesh.tets.nodes, mesh.neighbours, mesh.materials), points_,
+                        options_.max_distance_mm);
+    }
+  }
+
+  [[nodiscard]] std::array<LatticePoint, 4> lattice_points(std::size_t t) const {
+    const auto& nodes = result_.mesh.tets.nodes[t];
+    return {lattice_.points[nodes[0]], lattice_.points[nodes[1]], lattice_.points[nodes[2]],
+            lattice_.points[nodes[3]]};
+  }
+
+  /// Adds up what visit(t, changes) finds for t = 0 ... tets - 1, in parallel.
+  template <typename Visit>
+  void tally(std::size_t tets, const Visit& visit) {
+#pragma omp parallel
+    {
+      FidelityAccount::Changes changes = account_.no_changes();
+#pragma omp for schedule(dynamic, 512) nowait
+      for (std::size_t t = 0; t < tets; ++t) {
+        visit(t, changes);
+      }
+#pragma omp critical(cbc3d_tally)
+      account_.add(changes);
+    }
+  }
+
+  /// |S1| and |S1 n S2| of every material, by exact voxel-in-tet counting of the tets that have changed.
+  void measure_fidelity() {
+    tally(judged_.size(), [&](std::size_t t, FidelityAccount::Changes& changes) {
+      if (is_changed(t)) {
+        leave_account(t, changes);
+        foreign_[t] = account_.enter(lattice_points(t), result_.mesh.materials[t], changes);
+      }
+    });
+    for (MaterialFidelity& f : result_.fidelity) {
+      f.mesh_voxels = account_.mesh_voxels(f.material);
+      f.common_voxels = account_.common_voxels(f.material);
+    }
+  }
+
+  void leave_account(std::size_t t, FidelityAccount::Changes& changes) {
+    if (judged_[t] != kNotJudged && foreign_[t] != 0) {
+      account_.leave(lattice_points(t), static_cast<MaterialId>(judged_[t]), changes);
+    }
+  }
+
+  [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const {
+    return (coverage_ && coverage_->wants_refinement(j, k, i_begin, i_end)) ||
+           (interfaces_ && interfaces_->wants_refinement(j, k, i_begin, i_end));
+  }
+
+  /// Marks tets with an uncovered voxel.
+  void mark_uncovered() {
+    if ((coverage_ ? coverage_->uncovered_count() : 0) + (interfaces_ ? interfaces_->uncovered_count() : 0) ==
+        0) {
+      return;
+    }
+    places_->clear();
+    const auto add = [&](const Vec3& centre) { places_->add(centre); };
+    interfaces_ ? interfaces_->for_each_wanted(add) : coverage_->for_each_wanted(add);
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (std::size_t r = 0; r < lattice_.reds.size(); ++r) {
+      const RedTet& red = lattice_.reds[r];
+      if (marked_[r] == 0 && places_->may_hold(lattice_.points[red.nodes[0]], red.level)) {
+        marked_[r] = holds_uncovered(r) ? 1 : 0;
+      }
+    }
+  }
+
+  [[nodiscard]] bool holds_uncovered(std::size_t r) const {
+    bool uncovered = false;
+    for (TetId t = follower_.first(r); t < follower_.first(r + 1) && !uncovered; ++t) {
+      raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
+        uncovered = wants_refinement(j, k, i_begin, i_end);
+        return uncovered;
+      });
+    }
+    return uncovered;
+  }
+
+  void mark_tet(std::size_t t) {
+    set_flag(marked_[result_.mesh.tets.parent[t]]);
+  }
+
+  [[nodiscard]] int level_of(std::size_t t) const {
+    return lattice_.reds[result_.mesh.tets.parent[t]].level;
+  }
+  [[nodiscard]] bool may_split_for_fidelity(std::size_t t) const {
+    return level_of(t) < lattice_.frame.max_level &&
+           lattice_.frame.spacing_mm(level_of(t) + 1) >= options_.finest_spacing_mm * (1 - 1e-9);
+  }
+
+  /// Marks what is to be split in this round; returns the number of red tets that can be.
+  std::size_t mark() {
+    std::vector<std::uint8_t> unmet(result_.fidelity.size(), 0);
+    bool any = false;
+    for (std::size_t m = 1; m < unmet.size(); ++m) {
+      unmet[m] = static_cast<std::uint8_t>(!result_.fidelity[m].met());
+      any = any || unmet[m] != 0;
+    }
+    if (any) {
+      mark_by_distance_sign(unmet);
+      mark_misjudged(unmet);
+    }
+    if (count_splittable() == 0 && options_.topology_checks && topology_rounds_ < options_.topology_rounds) {
+      ++topology_rounds_;
+      mark_non_manifold();
+    }
+    if (count_splittable() == 0 && options_.max_distance_mm > 0 && options_.topology_checks &&
+        repairs_ < options_.repair_rounds) {
+      ++repairs_;
+      mark_what_repair_loses();
+    }
+    return count_splittable();
+  }
+
+  /// What is to be kept is the mesh after the repair of its topology, so that is judged as well: where the
+  /// repair takes a boundary voxel's interface away, a finer lattice keeps it.
+  void mark_what_repair_loses() {
+    repair_topology(result_.mesh, points_, image_,
+                    {true, options_.one_face_rule, options_.repair_image_passes, 0.0});
+    judge();
+  }
+
+  /// Noise asks for the finest lattice everywhere; what a real image needs is 6 to 15 tets a point, and more
+  /// where specks of a voxel are many.
+  bool exceeds_budget() {
+    constexpr std::size_t kTetsPerPoint = 40;
+    constexpr std::size_t kTets = 250000;
+    const std::size_t tets = result_.mesh.tets.size();
+    if (!interfaces_ || tets < kTets + kTetsPerPoint * interfaces_->point_count()) {
+      return false;
+    }
+    result_.warnings.push_back("the refinement ended at " + std::to_string(tets) +
+                               " tets, before every interface was near enough: the image looks like noise");
+    return true;
+  }
+
+  /// Tets of a label that is to have smaller elements.
+  void mark_oversized() {
+    if (options_.size_mm.empty()) {
+      return;
+    }
+    const std::vector<double> size_mm =
+        values_of_materials(image_, options_.size_mm, std::numeric_limits<double>::infinity());
+    const std::vector<MaterialId>& materials = result_.mesh.materials;
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < materials.size(); ++t) {
+      if (lattice_.frame.spacing_mm(level_of(t)) > size_mm[materials[t]]) {
+        mark_tet(t);
+      }
+    }
+  }
+
+  /// The other direction: a vertex of an interface that lies too far from where the image has that interface.
+  void mark_strays() {
+    if (options_.max_stray_mm <= 0 || !interfaces_) {
+      return;
+    }
+    mark_false_contacts();
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      for (std::size_t n = 0; n < 4 && is_changed(t); ++n) {
+        mark_if_stray(t, n);
+      }
+    }
+  }
+
+  void mark_if_stray(std::size_t t, std::size_t n) {
+    const CandidateMesh& mesh = result_.mesh;
+    const TetId across = mesh.neighbours[t][n];
+    const MaterialId own = mesh.materials[t];
+    const MaterialId other = across == kNoTet ? kBackground : mesh.materials[across];
+    if (own == other || (own < other && is_changed(across))) {  // the latter is the other tet's turn
+      return;
+    }
+    const bool strays = std::any_of(kTetFace[n].begin(), kTetFace[n].end(), [&](std::uint8_t corner) {
+      return is_stray(mesh.tets.nodes[t][corner], std::max(own, other), std::min(own, other));
+    });
+    if (strays) {
+      mark_tet(t);
+      if (across != kNoTet) {
+        mark_tet(across);
+      }
+    }
+  }
+
+  /// The last verdict on a vertex is kept with the materials it is about (a > b, so 0 is none): the faces
+  /// round the vertex ask the same again. Whatever thread writes it, it is a function of place and materials.
+  bool is_stray(VertexId v, MaterialId a, MaterialId b) {
+    const std::uint64_t question = (std::uint64_t{a} << 16U | b) << 1U;
+    std::atomic_ref<std::uint64_t> kept(stray_verdict_[v]);
+    const std::uint64_t known = kept.load(std::memory_order_relaxed);
+    if ((known & ~std::uint64_t{1}) == question) {
+      return (known & 1U) != 0;
+    }
+    const bool stray = boundary_.sample(points_[v], a, b).deviation_mm > options_.max_stray_mm;
+    kept.store(question | (stray ? 1U : 0U), std::memory_order_relaxed);
+    return stray;
+  }
+
+  /// Materials that meet at a vertex of the mesh and nowhere near it in the image: the lattice bridges a gap.
+  void mark_false_contacts() {
+    std::vector<std::uint8_t> bad(points_.size(), 0);
+    bool any = false;
+#pragma omp parallel for schedule(dynamic, 1024) reduction(|| : any)
+    for (std::size_t v = 0; v < sets_.size(); ++v) {
+      if (touched_[v] != 0 && sets_[v].size > 2 &&
+          !all_meet_near(image_, points_[v], sets_[v], options_.contact_reach_mm)) {
+        bad[v] = 1;
+        any = true;
+      }
+    }
+    const TetNodes& nodes = result_.mesh.tets.nodes;
+#pragma omp parallel for schedule(static, 1024) if (any)
+    for (std::size_t t = 0; t < (any ? nodes.size() : 0); ++t) {
+      if (std::any_of(nodes[t].begin(), nodes[t].end(), [&](VertexId v) { return bad[v] != 0; })) {
+        mark_tet(t);
+      }
+    }
+  }
+
+  /// The paper: when the fidelity is settled, the tets around non-manifold vertices and edges are split in
+  /// the next round.
+  void mark_non_manifold() {
+    const CandidateMesh& mesh = result_.mesh;
+    std::vector<std::uint8_t> bad(points_.size(), 0);
+    for (const VertexId v : non_manifold_vertices(mesh, points_.size(), image_.labels)) {
+      bad[v] = 1;
+    }
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      const auto& n = mesh.tets.nodes[t];
+      if ((bad[n[0]] | bad[n[1]] | bad[n[2]] | bad[n[3]]) != 0 && may_split_for_fidelity(t)) {
+        mark_tet(t);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t count_splittable() const {
+    std::size_t can_split = 0;
+    for (std::size_t r = 0; r < marked_.size(); ++r) {
+      can_split +=
+          static_cast<std::size_t>(marked_[r] != 0 && lattice_.reds[r].level < lattice_.frame.max_level);
+    }
+    return can_split;
+  }
+
+  /// The paper's criterion. The signed distance of material m is positive in its voxels, zero on its boundary
+  /// voxels and negative in all others, so "it changes sign between the centroid and a vertex" is "one of the
+  /// two lies in a voxel of m and the other does not": a look-up in the image decides it, no distance map is
+  /// needed.
+  void mark_by_distance_sign(const std::vector<std::uint8_t>& unmet) {
+    std::vector<MaterialId> at_vertex(points_.size());
+#pragma omp parallel for schedule(static, 4096)
+    for (std::size_t v = 0; v < points_.size(); ++v) {
+      at_vertex[v] = image_.at_local(points_[v]);
+    }
+    const LatticeTets& tets = result_.mesh.tets;
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+      const MaterialId here = centroid_material_[t];
+      for (const VertexId v : tets.nodes[t]) {
+        if (at_vertex[v] != here && (unmet[here] != 0 || unmet[at_vertex[v]] != 0) &&
+            may_split_for_fidelity(t)) {
+          mark_tet(t);
+        }
+      }
+    }
+  }
+
+  /// A structure that passes between the centroids and vertices of coarse tets changes no sign, yet it is
+  /// missing. So the tets that hold voxels of an unmet material but are not of it are split as well (the
+  /// paper's ancestor did so).
+  void mark_misjudged(const std::vector<std::uint8_t>& unmet) {
+    const CandidateMesh& mesh = result_.mesh;
+#pragma omp parallel for schedule(dynamic, 512)
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      if (foreign_[t] != 0 && marked_[mesh.tets.parent[t]] == 0 && may_split_for_fidelity(t) &&
+          account_.is_misjudged(lattice_points(t), mesh.materials[t], foreign_[t], unmet)) {
+        mark_tet(t);
+      }
+    }
+  }
+
+  /// One line a label, though each of its regions is a material of its own.
+  void warn_of_unmet() {
+    std::map<Label, std::vector<MaterialFidelity>> of_label;
+    for (const MaterialFidelity& f : result_.fidelity) {
+      of_label[f.label].push_back(f);
+    }
+    const auto worst_of = [](const MaterialFidelity& f) { return std::min(f.f1(), f.f2()); };
+    for (const auto& [label, regions] : of_label) {
+      const auto unmet =
+          std::count_if(regions.begin(), regions.end(), [](const MaterialFidelity& f) { return !f.met(); });
+      const MaterialFidelity& worst =
+          *std::min_element(regions.begin(), regions.end(), [&](const auto& a, const auto& b) {
+            return a.met() != b.met() ? b.met() : worst_of(a) < worst_of(b);
+          });
+      if (unmet == 0) {
+        continue;
+      }
+      std::string where;
+      if (regions.size() > 1) {
+        where = " in " + std::to_string(unmet) + " of its " + std::to_string(regions.size()) + " regions";
+      }
+      char text[256];
+      std::snprintf(
+          text, sizeof(text),
+          "label %d: fidelity %.3f not met%s (%sF1 = %.4f, F2 = %.4f): the lattice may not be finer "
+          "than %.3g mm",
+          label, worst.wanted, where.c_str(), unmet > 1 ? "worst: " : "", worst.f1(), worst.f2(),
+          options_.finest_spacing_mm);
+      result_.warnings.emplace_back(text);
+    }
+  }
+
+  void finish() {
+    result_.uncovered_voxels = coverage_ ? coverage_->uncovered_count() : 0;
+    result_.uncovered_voxels += interfaces_ ? interfaces_->uncovered_count() : 0;
+    result_.fidelity.erase(result_.fidelity.begin());  // background
+    warn_of_unmet();
+    char text[256];
+    if (result_.uncovered_voxels > 0) {
+      std::snprintf(
+          text, sizeof(text),
+          "%zu boundary voxels lie farther than %.3g mm from the interface at the finest spacing %.3g mm",
+          result_.uncovered_voxels, options_.max_distance_mm,
+          lattice_.frame.spacing_mm(lattice_.frame.max_level));
+      result_.warnings.emplace_back(text);
+    }
+  }
+
+  Lattice& lattice_;
+  const LabelImage& image_;
+  const RefineOptions& options_;
+  VoxelRaster raster_;
+  FidelityAccount account_;
+  ImageBoundary boundary_;
+  std::optional<BoundaryCoverage> coverage_;
+  std::optional<InterfaceCoverage> interfaces_;
+  std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ or coverage_ wants
+  std::vector<MaterialSet> sets_;        // of interfaces_' last update
+  RedGreenRefiner red_green_;
+  LatticeFollower follower_;
+  std::vector<std::uint32_t> rank_;
+  static constexpr std::int32_t kNotJudged = -1;
+  UnsetVector<std::int32_t> judged_;          // the material each tet had when it was last judged
+  UnsetVector<ForeignMaterials> foreign_;     // what was in each tet then
+  std::vector<std::uint8_t> touched_;         // vertices of tets that changed since
+  std::vector<std::uint64_t> stray_verdict_;  // of vertices, see is_stray
+  std::vector<Vec3> points_;
+  UnsetVector<MaterialId> centroid_material_;
+  std::vector<std::uint8_t> marked_;
+  int topology_rounds_ = 0;
+  int repairs_ = 0;
+  RefineResult result_;
+};
+
+}  // namespace
+
+RefineResult refine_lattice(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
+                            const std::function<void(int round, std::size_t tets)>& on_round) {
+  return Refiner(lattice, image, options).run(on_round);
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,72 @@
+// Stage "Adaptive refinement" (paper, section "Adaptive Lattice Refinement"): rounds of red-green subdivision
+// until every material meets its fidelity, with the candidate mesh selected in every round, so that what is
+// judged is what is kept.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesher/core/label_image.hpp"
+#include "mesher/lattice/candidate_mesh.hpp"
+#include "mesher/lattice/lattice.hpp"
+
+namespace cbc3d {
+
+struct RefineOptions {
+  double fidelity = 0.95;                     ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
+  std::map<Label, double> material_fidelity;  ///< F of single labels, in place of the global one
+  std::map<Label, double> size_mm;            ///< no lattice edge of these labels is longer
+  double max_distance_mm = 0;  ///< > 0: refine also where a boundary voxel has no interface vertex so near
+  double max_stray_mm = 0;  ///< > 0: refine also where an interface's vertex is farther than this from where
+                            ///< the image has that interface
+  double contact_reach_mm =
+      0;  ///< with max_stray_mm: materials that meet at a vertex are to meet so near in the image
+  bool smooth_labels = false;    ///< a tet takes the material whose smoothed share is largest at its centroid
+  bool each_interface = false;   ///< the distance is judged for every interface, not for every material
+  double finest_spacing_mm = 0;  ///< the fidelity criterion splits no tet below this lattice spacing, mm;
+                                 ///< 0: the smallest voxel spacing (the distance criterion: a quarter of it)
+  bool one_face_rule = true;     ///< the paper's: a candidate tet has at most one face towards background
+  bool topology_checks = false;  ///< refine around non-manifold places once the fidelity is settled
+  int topology_rounds = 3;       ///< how often, at most
+  int repair_rounds =
+      0;  ///< how often, at most, the distance is judged again after the repair of the topology
+  int repair_image_passes = 0;  ///< TopologyOptions::image_passes of that repair
+  int max_rounds = 40;          ///< a bound that is never reached unless something is wrong
+};
+
+/// How well the sub-mesh of one material matches its voxels. S1: voxels in the sub-mesh, S2: voxels of the
+/// material.
+struct MaterialFidelity {
+  MaterialId material = 0;
+  Label label = 0;
+  double wanted = 0;              ///< F
+  std::size_t mesh_voxels = 0;    ///< |S1|
+  std::size_t image_voxels = 0;   ///< |S2|
+  std::size_t common_voxels = 0;  ///< |S1 n S2|
+
+  [[nodiscard]] double f1() const { return mesh_voxels == 0 ? 0 : ratio(mesh_voxels); }
+  [[nodiscard]] double f2() const { return image_voxels == 0 ? 1 : ratio(image_voxels); }
+  [[nodiscard]] bool met() const { return wanted <= f1() && wanted <= f2(); }
+
+ private:
+  [[nodiscard]] double ratio(std::size_t of) const {
+    return static_cast<double>(common_voxels) / static_cast<double>(of);
+  }
+};
+
+struct RefineResult {
+  CandidateMesh mesh;
+  std::vector<MaterialFidelity> fidelity;  ///< one a labelled material
+  std::size_t uncovered_voxels = 0;  ///< boundary voxels beyond max_distance_mm that could not be reached
+  int rounds = 0;
+  std::vector<std::string> warnings;  ///< which materials fall short, and why the rounds ended
+};
+
+/// Refines `lattice` in place. `on_round(round, tets)` is told of each round. Same result at any thread
+/// count.
+RefineResult refine_lattice(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
+                            const std::function<void(int round, std::size_t tets)>& on_round);
+
+}  // namespace cbc3d

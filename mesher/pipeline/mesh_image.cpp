@@ -1,0 +1,281 @@
+#include "mesher/pipeline/mesh_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "mesher/core/mesh_io.hpp"
+#include "mesher/lattice/bcc_lattice.hpp"
+#include "mesher/lattice/red_green.hpp"
+
+namespace cbc3d {
+namespace {
+
+/// Times the stages, tells of them, and dumps their meshes when asked to.
+class StageLog {
+ public:
+  StageLog(const LabelImage& image, const MeshImageOptions& options, Progress& progress,
+           MeshImageReport& report)
+      : image_(image), options_(options), progress_(progress), report_(report) {}
+
+  template <typename Stage>
+  auto run(const std::string& name, double fraction, const Stage& stage) {
+    progress_.step(name, fraction);
+    const Stopwatch watch;
+    struct Record {
+      ~Record() {
+        const double seconds = watch.seconds();
+        const auto known = std::find_if(report.stage_seconds.begin(), report.stage_seconds.end(),
+                                        [&](const auto& stage) { return stage.first == name; });
+        if (known == report.stage_seconds.end()) {
+          report.stage_seconds.emplace_back(name, seconds);
+        } else {
+          known->second += seconds;
+        }
+        report.seconds += seconds;
+        report.cpu_seconds += process_cpu_seconds() - cpu_before;
+      }
+      MeshImageReport& report;
+      const std::string& name;
+      const Stopwatch& watch;
+      double cpu_before;
+    } record{report_, name, watch, process_cpu_seconds()};
+    return stage();
+  }
+
+  void dump(const std::string& file, const MaterialMesh& mesh) const {
+    if (!options_.dump_stages.empty()) {
+      std::filesystem::create_directories(options_.dump_stages);
+      write_mesh(to_physical_mesh(mesh, image_), options_.dump_stages / (file + ".vtu"));
+    }
+  }
+
+  [[nodiscard]] bool dumping() const { return !options_.dump_stages.empty(); }
+
+ private:
+  const LabelImage& image_;
+  const MeshImageOptions& options_;
+  Progress& progress_;
+  MeshImageReport& report_;
+};
+
+/// A lattice as a mesh to look at: every tet, labelled 1.
+MaterialMesh as_material_mesh(const Lattice& lattice) {
+  const LatticeTets tets = extract_tets(lattice);
+  return {local_points(lattice), tets.nodes, std::vector<MaterialId>(tets.size(), 1), {}, {}};
+}
+
+/// The smallest voxel spacing; of needle or plate voxels no less than half the geometric mean, for a lattice
+/// of equal-sided elements as fine as a voxel's thinnest side would have no end.
+double default_finest_spacing_mm(const ImageFrame& frame) {
+  const Vec3& s = frame.spacing_mm;
+  return std::max(s.min_coeff(), 0.5 * std::cbrt(s.x * s.y * s.z));
+}
+
+RefineOptions refine_options(const LabelImage& image, const MeshImageOptions& options) {
+  RefineOptions refine = options.refine;
+  refine.topology_checks = options.topology.enabled;
+  if (refine.finest_spacing_mm <= 0) {
+    refine.finest_spacing_mm = default_finest_spacing_mm(image.frame);
+  }
+  return refine;
+}
+
+BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOptions& options,
+                                  MeshImageReport& report) {
+  BccLatticeOptions lattice;
+  lattice.spacing_mm =
+      options.lattice_spacing_mm > 0 ? options.lattice_spacing_mm : default_lattice_spacing_mm(image.frame);
+  // A wire one voxel wide needs two halvings below the voxel to be held by several tets; a twelfth of the
+  // diagonal is less than that unless voxels are needles or plates.
+  const double finest_mm = refine_options(image, options).finest_spacing_mm;
+  lattice.finest_spacing_mm =
+      options.refine.max_distance_mm > 0
+          ? std::max(finest_mm / 4, std::min(finest_mm, image.frame.voxel_diagonal_mm() / 12))
+          : finest_mm;
+  report.lattice_spacing_mm = lattice.spacing_mm;
+  return lattice;
+}
+
+/// No label is dropped silently, and no region of one either.
+void warn_of_losses(const LabelImage& image, const MaterialMesh& mesh, MeshImageReport& report) {
+  std::vector<std::uint8_t> there(image.material_count(), 0);
+  for (CellId c = 0; c < mesh.cell_count(); ++c) {
+    there[mesh.material_of(c)] = 1;
+  }
+  struct Loss {
+    std::size_t regions = 0, lost_regions = 0, lost_voxels = 0;
+  };
+  std::map<Label, Loss> losses;
+  const std::vector<std::size_t> voxels = image.voxels_per_material();
+  for (std::size_t m = 1; m < there.size(); ++m) {
+    Loss& loss = losses[image.labels[m]];
+    ++loss.regions;
+    loss.lost_regions += there[m] == 0 ? 1 : 0;
+    loss.lost_voxels += there[m] == 0 ? voxels[m] : 0;
+  }
+  for (const auto& [label, loss] : losses) {
+    if (loss.lost_regions > 0) {
+      const std::string what = loss.lost_regions == loss.regions
+                                   ? "label " + std::to_string(label)
+                                   : std::to_string(loss.lost_regions) + " of " +
+                                         std::to_string(loss.regions) + " regions of label " +
+                                         std::to_string(label);
+      report.warnings.push_back(
+          what + " (" + std::to_string(loss.lost_voxels) +
+          " voxels) not in the mesh; a smaller --lattice-spacing or --max-distance keeps more");
+    }
+  }
+}
+
+void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
+  if (clean.removed.regions_removed > 0) {
+    report.warnings.push_back(std::to_string(clean.removed.regions_removed) + " regions (" +
+                              std::to_string(clean.removed.voxels_removed) +
+                              " voxels) below --region-tolerance became background");
+  }
+  for (const LabelChange& change : clean.labels) {
+    if (change.voxels_before > 0 && change.voxels_after == 0) {
+      report.warnings.push_back("label " + std::to_string(change.label) + " (" +
+                                std::to_string(change.voxels_before) +
+                                " voxels) vanished in the cleaning; --relabel-noise none keeps it");
+    }
+  }
+}
+
+void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) {
+  if (!options.clean.manifold_voxels && options.topology.image_passes == 0) {
+    report.warnings.emplace_back(
+        "--topology-checks with --no-manifold-voxels: contacts of voxels by an edge or a vertex are left to "
+        "the mesh, which "
+        "will cut or join them");
+  }
+  for (const LabelTopology& t : report.topology.labels) {
+    if (t.components != t.image_regions) {
+      report.warnings.push_back("label " + std::to_string(t.label) + " has " +
+                                std::to_string(t.image_regions) +
+                                " face-connected regions in the cleaned image and " +
+                                std::to_string(t.components) + " in the mesh (places: --report)");
+    }
+  }
+  if (report.topology.non_manifold_vertices_left > 0) {
+    report.warnings.push_back(std::to_string(report.topology.non_manifold_vertices_left) +
+                              " vertices are left where a label's surface is no manifold");
+  }
+}
+
+void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
+  if (report.improve.min_dihedral_after_deg < options.improve.min_dihedral_deg) {
+    char text[128];
+    std::snprintf(text, sizeof(text), "the smallest dihedral angle is %.2f degrees, not %.2f",
+                  report.improve.min_dihedral_after_deg, options.improve.min_dihedral_deg);
+    report.warnings.emplace_back(text);
+  }
+}
+
+/// From the clean image to the mesh in local mm.
+MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& options, StageLog& log,
+                              Progress& progress, MeshImageReport& report) {
+  Lattice lattice = log.run(
+      "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
+  if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
+
+  const RefineOptions refine = refine_options(image, options);
+  report.refine = log.run("adaptive_refinement", 0.1, [&] {
+    return refine_lattice(lattice, image, refine, [&](int round, std::size_t tets) {
+      progress.step(
+          "adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
+          std::min(0.5, 0.1 + 0.03 * round));
+    });
+  });
+  CandidateMesh candidate = std::move(report.refine.mesh);
+  report.finest_spacing_mm = lattice.frame.spacing_mm(lattice.frame.max_level);
+
+  if (options.topology.enabled) {
+    report.topology = log.run("topology_checks", 0.45, [&] {
+      return check_topology(candidate, local_points(lattice), image, options.topology);
+    });
+    warn_of_topology(options, report);
+  }
+
+  MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {
+    MaterialMesh kept = discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
+    order_for_locality(kept);
+    // Nothing of the lattice is asked for from here on.
+    candidate = {};
+    lattice = {};
+    return kept;
+  });
+  log.dump("2_candidate_mesh", mesh);
+  report.warnings.insert(report.warnings.end(), report.refine.warnings.begin(), report.refine.warnings.end());
+  warn_of_losses(image, mesh, report);
+
+  if (options.mixed) {
+    report.mix = log.run("mixed_elements", 0.53, [&] { return mix_elements(mesh, options.mix); });
+    log.dump("3_mixed_mesh", mesh);
+  }
+
+  if (options.deform.iterations > 0) {
+    report.deform = log.run("deformation", 0.55, [&] {
+      return deform_mesh(mesh, image, options.deform, [&](int i) {
+        progress.step("deformation, iteration " + std::to_string(i + 1),
+                      0.55 + 0.4 * i / std::max(1, options.deform.iterations));
+      });
+    });
+    log.dump("4_deformed_mesh", mesh);
+    if (report.deform.stopped_early) {
+      report.warnings.push_back("the deformation stopped in iteration " +
+                                std::to_string(report.deform.iterations.size()) +
+                                ": elements stay below the minimum quality; --on-failure recover goes on");
+    }
+  }
+  if (options.improve.enabled && !options.mixed) {
+    report.improve = log.run("improvement", 0.5, [&] {
+      return improve_mesh(mesh, image, options.improve, [&](int round) {
+        progress.step("improvement, round " + std::to_string(round + 1), std::min(0.95, 0.5 + 0.06 * round));
+      });
+    });
+    log.dump("5_improved_mesh", mesh);
+    warn_of_angles(options, report);
+  }
+  return mesh;
+}
+
+/// True when the improvement has not reached what it is for.
+bool has_faults(const MeshImageOptions& options, const ImproveReport& improve) {
+  constexpr double kHighestGoalDeg = 25;  // steeper goals are often missed, however fine the mesh
+  const double goal_deg = options.improve.min_dihedral_deg;
+  return improve.crossings_left > 0 || improve.faults_left > 0 ||
+         (goal_deg <= kHighestGoalDeg && improve.min_dihedral_after_deg < goal_deg);
+}
+
+MeshImageOptions with_tolerance(MeshImageOptions options, const Tolerance& tolerance) {
+  options.refine.max_distance_mm = tolerance.max_distance_mm;
+  options.improve.reach_mm = tolerance.max_distance_mm;
+  options.improve.deviation_diagonals = tolerance.deviation_diagonals;
+  options.improve.collapse_leeway_deg = tolerance.collapse_leeway_deg;
+  return options;
+}
+
+}  // namespace
+
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
+                MeshImageReport& report) {
+  StageLog log(image, options, progress, report);
+
+  report.clean = log.run("image_cleaning", 0.01, [&] { return clean_image(image, options.clean, true); });
+  warn_of_cleaning(report.clean, report);
+
+  const std::vector<std::string> warnings = report.warnings;
+  MaterialMesh mesh = mesh_clean_image(image, options, log, progress, report);
+  if (options.stricter && options.improve.enabled && !options.mixed && has_faults(options, report.improve)) {
+    mesh = {};
+    report.warnings = warnings;
+    report.was_stricter = true;
+    mesh = mesh_clean_image(image, with_tolerance(options, *options.stricter), log, progress, report);
+  }
+  return to_physical_mesh(mesh, image);
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,69 @@
+// CBC3D from label image to mesh: the paper's section "Method" in one function.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesher/core/label_image.hpp"
+#include "mesher/core/mesh.hpp"
+#include "mesher/core/progress.hpp"
+#include "mesher/deform/deform_mesh.hpp"
+#include "mesher/improve/improve_mesh.hpp"
+#include "mesher/lattice/check_topology.hpp"
+#include "mesher/lattice/refine_lattice.hpp"
+#include "mesher/mixed/mix_elements.hpp"
+#include "mesher/preprocess/clean_image.hpp"
+
+namespace cbc3d {
+
+/// What the thinning out is allowed.
+struct Tolerance {
+  double max_distance_mm;      ///< RefineOptions::max_distance_mm and ImproveOptions::reach_mm
+  double deviation_diagonals;  ///< ImproveOptions::deviation_diagonals
+  double collapse_leeway_deg;  ///< ImproveOptions::collapse_leeway_deg
+};
+
+struct MeshImageOptions {
+  double lattice_spacing_mm =
+      0;  ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
+  CleanOptions clean;
+  RefineOptions refine;
+  TopologyOptions topology;
+  bool mixed = false;  ///< hexes and pyramids in uniform regions
+  MixOptions mix;
+  DeformOptions deform;
+  ImproveOptions improve;
+  /// Where the improvement leaves faults, or angles below its goal, all is done once more with this: what is
+  /// thinned out less is easier to keep whole. None: never.
+  std::optional<Tolerance> stricter;
+  std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
+};
+
+struct MeshImageReport {
+  double lattice_spacing_mm = 0;
+  double finest_spacing_mm = 0;
+  std::vector<std::pair<std::string, double>>
+      stage_seconds;  ///< in order, of both times where all was done twice; files not included
+  double seconds = 0;
+  double cpu_seconds = 0;  ///< user and system, all threads, of the same stages
+  CleanReport clean;
+  RefineResult refine;  ///< without its mesh
+  TopologyReport topology;
+  MixReport mix;
+  DeformReport deform;
+  ImproveReport improve;
+  bool was_stricter = false;  ///< the mesh is that of MeshImageOptions::stricter
+  std::vector<std::string> warnings;
+};
+
+/// Meshes `image` (which is cleaned in place, so hand it over if it is not needed any more); the mesh is in
+/// physical space and carries the image's label values. Throws InputError for options out of range. The same
+/// bytes come out at any thread count.
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
+                MeshImageReport& report);
+
+}  // namespace cbc3d

@@ -1,0 +1,95 @@
+// Small images and mesh checks that the mesher's tests share.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <random>
+
+#include "mesher/core/label_image.hpp"
+#include "mesher/core/mesh.hpp"
+#include "mesher/topology/cell_quality.hpp"
+
+namespace cbc3d::testing {
+
+/// An image filled voxel by voxel from its local position; `materials` labelled ones get the labels 1, 2, ...
+inline LabelImage make_image(const Index3& size, const Vec3& spacing_mm, int materials,
+                             const std::function<int(const Vec3&)>& material_at) {
+  LabelImage image;
+  image.frame.size = size;
+  image.frame.spacing_mm = spacing_mm;
+  image.voxels.resize(image.frame.voxel_count());
+  for (Label label = 1; label <= materials; ++label) {
+    image.labels.push_back(label);
+  }
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    const Index3 at = image.frame.index_of(v);
+    image.voxels[v] = static_cast<MaterialId>(material_at(image.frame.local_centre(at[0], at[1], at[2])));
+  }
+  return image;
+}
+
+inline Vec3 centre_of(const LabelImage& image) {
+  return {0.5 * (image.frame.size[0] - 1) * image.frame.spacing_mm.x,
+          0.5 * (image.frame.size[1] - 1) * image.frame.spacing_mm.y,
+          0.5 * (image.frame.size[2] - 1) * image.frame.spacing_mm.z};
+}
+
+/// A ball of material 1 with, when core_mm > 0, a concentric core of material 2.
+inline LabelImage ball_image(int size, double spacing_mm, double radius_mm, double core_mm = 0) {
+  const double c = 0.5 * (size - 1) * spacing_mm;
+  return make_image({size, size, size}, {spacing_mm, spacing_mm, spacing_mm}, core_mm > 0 ? 2 : 1,
+                    [=](const Vec3& p) {
+                      const double r = (p - Vec3{c, c, c}).norm();
+                      return r <= core_mm ? 2 : r <= radius_mm ? 1 : 0;
+                    });
+}
+
+/// Seeded noise of the given density over two materials, with an empty rim.
+inline LabelImage noise_image(int size, double density, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  LabelImage image = make_image({size, size, size}, {1, 1, 1}, 2, [](const Vec3&) { return 0; });
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    const Index3 at = image.frame.index_of(v);
+    const bool rim = std::min({at[0], at[1], at[2]}) == 0 || std::max({at[0], at[1], at[2]}) == size - 1;
+    const double draw = random() / 4294967296.0;
+    image.voxels[v] = static_cast<MaterialId>(rim || draw >= density ? 0 : draw < density / 2 ? 1 : 2);
+  }
+  return image;
+}
+
+/// The frame turned about an oblique axis and shifted; left-handed when `flipped`.
+inline ImageFrame oblique(ImageFrame frame, bool flipped) {
+  const double a = 0.4;
+  const double b = 0.7;
+  const Mat3 rz{{Vec3{std::cos(a), -std::sin(a), 0}, Vec3{std::sin(a), std::cos(a), 0}, Vec3{0, 0, 1}}};
+  const Mat3 rx{{Vec3{1, 0, 0}, Vec3{0, std::cos(b), -std::sin(b)}, Vec3{0, std::sin(b), std::cos(b)}}};
+  frame.direction = rz * rx;
+  if (flipped) {
+    frame.direction =
+        Mat3::from_columns(-frame.direction.column(0), frame.direction.column(1), frame.direction.column(2));
+  }
+  frame.origin_mm = {-31, 12, 155};
+  return frame;
+}
+
+inline double smallest_dihedral_deg(const Mesh& mesh) {
+  double smallest = 180;
+  for (const auto& n : mesh.tets.nodes) {
+    smallest = std::min(smallest, min_dihedral_deg(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
+                                                   mesh.points[n[3]]));
+  }
+  return smallest;
+}
+
+inline double volume_of(const Mesh& mesh, Label label) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets.nodes[t];
+    if (mesh.tets.labels[t] == label) {
+      sum += six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6;
+    }
+  }
+  return sum;
+}
+
+}  // namespace cbc3d::testing

@@ -1,0 +1,419 @@
+#include "reports/charts/chart.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+
+#include "reports/tables/markup.hpp"
+#include "reports/tables/table.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+constexpr double kWidth = 680, kHeight = 410;
+constexpr double kLeft = 70, kRight = 16, kTop = 40, kPlotBottom = 300;
+constexpr double kLegendLine = 20;
+
+/// Distinct for the colour-blind too (Okabe and Ito), then repeated.
+constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                              "#e69f00", "#56b4e9", "#000000", "#999933"};
+
+std::string number(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.2f", value);
+  return buffer.data();
+}
+
+std::string tick_text(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
+}
+
+std::string attributes(std::initializer_list<std::pair<const char*, std::string>> list) {
+  std::string text;
+  for (const auto& [name, value] : list) {
+    text += std::string(" ") + name + "=\"" + value + "\"";
+  }
+  return text;
+}
+
+std::string line(double x1, double y1, double x2, double y2, const std::string& colour, double width = 1,
+                 bool dashed = false) {
+  return "<line" +
+         attributes({{"x1", number(x1)},
+                     {"y1", number(y1)},
+                     {"x2", number(x2)},
+                     {"y2", number(y2)},
+                     {"stroke", colour},
+                     {"stroke-width", number(width)}}) +
+         (dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
+}
+
+std::string text(double x, double y, const std::string& content, const char* anchor, double size = 12,
+                 double turn_deg = 0) {
+  const std::string turn =
+      turn_deg == 0 ? ""
+                    : " transform=\"rotate(" + number(turn_deg) + " " + number(x) + " " + number(y) + ")\"";
+  return "<text" +
+         attributes(
+             {{"x", number(x)}, {"y", number(y)}, {"text-anchor", anchor}, {"font-size", number(size)}}) +
+         turn + ">" + markup_text(content) + "</text>\n";
+}
+
+/// The y axis: from values to pixels.
+class Scale {
+ public:
+  explicit Scale(const Chart& chart) : logarithmic_(chart.logarithmic) {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = 0;
+    for (const Series& series : chart.series) {
+      for (std::size_t n = 0; n < series.values.size(); ++n) {
+        if (std::isfinite(series.values[n])) {
+          const double error = n < series.errors.size() ? series.errors[n] : 0;
+          highest = std::max(highest, series.values[n] + error);
+          lowest = series.values[n] > 0 ? std::min(lowest, series.values[n]) : lowest;
+        }
+      }
+    }
+    logarithmic_ = logarithmic_ && std::isfinite(lowest);
+    ticks_ = logarithmic_ ? powers_of_ten(lowest, highest) : axis_ticks(highest);
+  }
+
+  [[nodiscard]] double y(double value) const {
+    const double share = logarithmic_
+                             ? (std::log10(std::max(value, ticks_.front())) - std::log10(ticks_.front())) /
+                                   (std::log10(ticks_.back()) - std::log10(ticks_.front()))
+                             : value / ticks_.back();
+    return kPlotBottom - share * (kPlotBottom - kTop);
+  }
+  [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
+
+ private:
+  static std::vector<double> powers_of_ten(double lowest, double highest) {
+    std::vector<double> ticks;
+    const int first = static_cast<int>(std::floor(std::log10(lowest)));
+    for (int power = first; ticks.size() < 2 || ticks.back() < highest; ++power) {
+      ticks.push_back(std::pow(10.0, power));
+    }
+    return ticks;
+  }
+
+  bool logarithmic_;
+  std::vector<double> ticks_;
+};
+
+double slot_width(const Chart& chart) {
+  return (kWidth - kLeft - kRight) / static_cast<double>(std::max<std::size_t>(chart.categories.size(), 1));
+}
+
+double slot_centre(const Chart& chart, std::size_t category) {
+  return kLeft + slot_width(chart) * (static_cast<double>(category) + 0.5);
+}
+
+std::string axes(const Chart& chart, const Scale& scale) {
+  std::string svg = text(kWidth / 2, 22, chart.title, "middle", 16);
+  for (const double tick : scale.ticks()) {
+    svg += line(kLeft, scale.y(tick), kWidth - kRight, scale.y(tick), "#d8d8d8");
+    svg += text(kLeft - 6, scale.y(tick) + 4, tick_text(tick), "end", 13);
+  }
+  svg += line(kLeft, kPlotBottom, kWidth - kRight, kPlotBottom, "#333");
+  svg += text(18, (kTop + kPlotBottom) / 2, chart.y_title, "middle", 14, -90);
+  std::size_t longest = 0;
+  for (const std::string& category : chart.categories) {
+    longest = std::max(longest, category.size());
+  }
+  const bool tilt = slot_width(chart) * chart.label_every < 9.0 * static_cast<double>(longest);
+  for (std::size_t c = 0; c < chart.categories.size(); c += static_cast<std::size_t>(chart.label_every)) {
+    svg += text(slot_centre(chart, c), kPlotBottom + 16, chart.categories[c], tilt ? "end" : "middle", 13,
+                tilt ? -30 : 0);
+  }
+  return svg +
+         text((kLeft + kWidth - kRight) / 2, kPlotBottom + (tilt ? 62 : 38), chart.x_title, "middle", 14);
+}
+
+/// Names of the series in rows beneath the plot, each after its sample(number, x, y), and the note. `height`
+/// grows by what they need.
+template <class Sample>
+std::string legend(const Chart& chart, double& height, const Sample& sample) {
+  std::string svg;
+  double x = kLeft;
+  double y = kPlotBottom + 86;
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const double width = 36 + 7.4 * static_cast<double>(chart.series[s].name.size());
+    if (x + width > kWidth - kRight && x > kLeft) {
+      x = kLeft;
+      y += kLegendLine;
+    }
+    svg += sample(s, x, y - 4);
+    svg += text(x + 23, y, chart.series[s].name, "start", 13);
+    x += width;
+  }
+  if (!chart.note.empty()) {
+    y += kLegendLine;
+    svg += text(kLeft, y, chart.note, "start", 12);
+  }
+  height = std::max(height, y + 14);
+  return svg;
+}
+
+std::string error_bar(double x, double low, double high) {
+  return line(x, low, x, high, "#222", 1.2) + line(x - 3, low, x + 3, low, "#222", 1.2) +
+         line(x - 3, high, x + 3, high, "#222", 1.2);
+}
+
+std::string error_bar_of(const Series& series, std::size_t n, double x, const Scale& scale) {
+  const bool has_error = n < series.errors.size() && series.errors[n] > 0;
+  return has_error ? error_bar(x, scale.y(std::max(0.0, series.values[n] - series.errors[n])),
+                               scale.y(series.values[n] + series.errors[n]))
+                   : "";
+}
+
+std::string bars(const Chart& chart, const Scale& scale) {
+  constexpr double kFill = 0.84;  // of a category's slot
+  constexpr double kWidest = 56;
+  const auto count = static_cast<double>(std::max<std::size_t>(chart.series.size(), 1));
+  const double width = std::min(kWidest, kFill * slot_width(chart) / count);
+  std::string svg;
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const Series& series = chart.series[s];
+    for (std::size_t c = 0; c < series.values.size(); ++c) {
+      if (!std::isfinite(series.values[c])) {
+        continue;
+      }
+      const double x = slot_centre(chart, c) + width * (static_cast<double>(s) - count / 2);
+      const double top = scale.y(series.values[c]);
+      svg += "<rect" +
+             attributes({{"x", number(x)},
+                         {"y", number(top)},
+                         {"width", number(width)},
+                         {"height", number(std::max(0.0, kPlotBottom - top))},
+                         {"fill", kColours[s % kColours.size()]}}) +
+             "><title>" +
+             markup_text(series.name + ", " + chart.categories[c] + ": " + tick_text(series.values[c])) +
+             "</title></rect>\n";
+      svg += error_bar_of(series, c, x + width / 2, scale);
+    }
+  }
+  return svg;
+}
+
+std::string points(const Chart& chart, const Scale& scale) {
+  std::string svg;
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const Series& series = chart.series[s];
+    const std::string colour = kColours[s % kColours.size()];
+    std::string path;
+    for (std::size_t c = 0; c < series.values.size(); ++c) {
+      if (!std::isfinite(series.values[c])) {
+        continue;
+      }
+      const double x = slot_centre(chart, c);
+      const double y = scale.y(series.values[c]);
+      path += (path.empty() ? "M" : "L") + number(x) + " " + number(y);
+      if (!series.dashed) {
+        svg += error_bar_of(series, c, x, scale);
+        svg += "<circle" + attributes({{"cx", number(x)}, {"cy", number(y)}, {"r", "4"}, {"fill", colour}}) +
+               "><title>" +
+               markup_text(series.name + ", " + chart.categories[c] + ": " + tick_text(series.values[c])) +
+               "</title></circle>\n";
+      }
+    }
+    svg += "<path" +
+           attributes({{"d", path.empty() ? "M0 0" : path},
+                       {"fill", "none"},
+                       {"stroke", colour},
+                       {"stroke-width", "2"}}) +
+           (series.dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
+  }
+  return svg;
+}
+
+/// `inner`: axes and marks; `below`: the legend.
+std::string document(const std::string& title, double height, const std::string& inner,
+                     const std::string& below) {
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + " " + number(height) +
+         "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
+         "\" font-family=\"sans-serif\" fill=\"#222\" role=\"img\"><title>" + markup_text(title) +
+         "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + inner + below + "</svg>\n";
+}
+
+std::string document(const Chart& chart, const Scale& scale, const std::string& marks) {
+  double height = kHeight;
+  const std::string below = legend(chart, height, [&](std::size_t s, double x, double y) {
+    return line(x, y, x + 18, y, kColours[s % kColours.size()], 5, chart.series[s].dashed);
+  });
+  return document(chart.title, height, axes(chart, scale) + marks, below);
+}
+
+/// One axis of a plane: from values to the share of its length.
+class Axis {
+ public:
+  Axis(std::vector<double> values, bool logarithmic, std::optional<double> limit)
+      : logarithmic_(logarithmic) {
+    if (limit) {
+      values.push_back(kRoom * *limit);
+      values.push_back(*limit);
+    }
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    ticks_ = logarithmic_ ? steps_of_125(*lowest, *highest) : axis_ticks(*highest);
+  }
+
+  [[nodiscard]] double share(double value) const {
+    const auto at = [this](double v) { return logarithmic_ ? std::log10(v) : v; };
+    return (at(value) - at(ticks_.front())) / (at(ticks_.back()) - at(ticks_.front()));
+  }
+  [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
+
+ private:
+  static constexpr double kRoom = 1.2;  ///< beyond a limit, to show that it is one
+
+  /// 1, 2, 5, 10, ... from at most `lowest` to at least `highest`, only powers of ten when these are many.
+  static std::vector<double> steps_of_125(double lowest, double highest) {
+    constexpr std::size_t kMostTicks = 8;
+    std::vector<double> steps, powers;
+    const int first = static_cast<int>(std::floor(std::log10(lowest)));
+    for (int power = first; powers.size() < 2 || powers.back() < highest; ++power) {
+      powers.push_back(std::pow(10.0, power));
+      for (const double factor : {1.0, 2.0, 5.0}) {
+        steps.push_back(factor * powers.back());
+      }
+    }
+    while (steps.size() > 2 && steps[1] <= lowest) {
+      steps.erase(steps.begin());
+    }
+    while (steps.size() > 2 && steps[steps.size() - 2] >= highest) {
+      steps.pop_back();
+    }
+    return steps.size() > kMostTicks ? powers : steps;
+  }
+
+  bool logarithmic_;
+  std::vector<double> ticks_;
+};
+
+/// Where a plane's values lie in the picture.
+struct Plane {
+  Axis x_axis, y_axis;
+
+  [[nodiscard]] double x(double value) const {
+    return kLeft + x_axis.share(value) * (kWidth - kRight - kLeft);
+  }
+  [[nodiscard]] double y(double value) const {
+    return kPlotBottom - y_axis.share(value) * (kPlotBottom - kTop);
+  }
+};
+
+std::string plane_axes(const Scatter& scatter, const Plane& plane) {
+  std::string svg = text(kWidth / 2, 22, scatter.title, "middle", 16);
+  for (const double tick : plane.y_axis.ticks()) {
+    const std::string name = tick < 1000 ? tick_text(tick) : format_number(tick, 0);
+    svg += line(kLeft, plane.y(tick), kWidth - kRight, plane.y(tick), "#d8d8d8");
+    svg += text(kLeft - 6, plane.y(tick) + 4, name, "end", 12);
+  }
+  for (const double tick : plane.x_axis.ticks()) {
+    svg += line(plane.x(tick), kTop, plane.x(tick), kPlotBottom, "#d8d8d8");
+    svg += text(plane.x(tick), kPlotBottom + 17, tick_text(tick), "middle", 13);
+  }
+  svg += line(kLeft, kPlotBottom, kWidth - kRight, kPlotBottom, "#333");
+  svg += line(kLeft, kTop, kLeft, kPlotBottom, "#333");
+  if (scatter.x_limit) {
+    svg += line(plane.x(*scatter.x_limit), kTop, plane.x(*scatter.x_limit), kPlotBottom, "#555", 1.5, true);
+  }
+  if (scatter.y_limit) {
+    svg +=
+        line(kLeft, plane.y(*scatter.y_limit), kWidth - kRight, plane.y(*scatter.y_limit), "#555", 1.5, true);
+  }
+  return svg + text(14, (kTop + kPlotBottom) / 2, scatter.y_title, "middle", 14, -90) +
+         text((kLeft + kWidth - kRight) / 2, kPlotBottom + 40, scatter.x_title, "middle", 14);
+}
+
+/// A point of the `series`-th colour and shape, with what it is as its tip.
+std::string point_mark(std::size_t series, double x, double y, const std::string& tip) {
+  static const std::array<std::vector<std::pair<double, double>>, 4> kShapes{
+      std::vector<std::pair<double, double>>{},     // a circle
+      {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}},         // a square
+      {{0, -7}, {6.5, 5}, {-6.5, 5}},               // a triangle
+      {{0, -7.5}, {7.5, 0}, {0, 7.5}, {-7.5, 0}}};  // a diamond
+  const std::string look =
+      attributes({{"fill", kColours[series % kColours.size()]}, {"stroke", "#fff"}, {"stroke-width", "1"}});
+  const auto& shape = kShapes[series % kShapes.size()];
+  const std::string title = "><title>" + markup_text(tip) + "</title></";
+  if (shape.empty()) {
+    return "<circle" + attributes({{"cx", number(x)}, {"cy", number(y)}, {"r", "6"}}) + look + title +
+           "circle>\n";
+  }
+  std::string corners;
+  for (const auto& [dx, dy] : shape) {
+    corners += (corners.empty() ? "" : " ") + number(x + dx) + "," + number(y + dy);
+  }
+  return "<polygon" + attributes({{"points", corners}}) + look + title + "polygon>\n";
+}
+
+/// The axes that hold all points. At least one point there is.
+Plane plane_of(const Scatter& scatter) {
+  std::vector<double> xs, ys;
+  for (const PointSeries& series : scatter.series) {
+    for (const auto& [x, y] : series.points) {
+      xs.push_back(x);
+      ys.push_back(y);
+    }
+  }
+  return {Axis(xs, scatter.logarithmic_x, scatter.x_limit), Axis(ys, scatter.logarithmic_y, scatter.y_limit)};
+}
+
+}  // namespace
+
+std::vector<double> axis_ticks(double highest) {
+  constexpr double kTicks = 5;
+  if (!(highest > 0)) {
+    return {0, 1};
+  }
+  const double power = std::pow(10.0, std::floor(std::log10(highest / kTicks)));
+  double step = 10 * power;
+  for (const double factor : {1.0, 2.0, 2.5, 5.0}) {
+    if (factor * power * kTicks >= highest) {
+      step = factor * power;
+      break;
+    }
+  }
+  std::vector<double> ticks{0};
+  while (ticks.back() < highest * (1 - 1e-9)) {
+    ticks.push_back(step * static_cast<double>(ticks.size()));
+  }
+  return ticks;
+}
+
+std::string bar_chart(const Chart& chart) {
+  const Scale scale(chart);
+  return document(chart, scale, bars(chart, scale));
+}
+
+std::string line_chart(const Chart& chart) {
+  const Scale scale(chart);
+  return document(chart, scale, points(chart, scale));
+}
+
+std::string scatter_chart(const Scatter& scatter) {
+  const Plane plane = plane_of(scatter);
+  Chart names;
+  names.note = scatter.note;
+  std::string inner = plane_axes(scatter, plane);
+  for (std::size_t s = 0; s < scatter.series.size(); ++s) {
+    const PointSeries& series = scatter.series[s];
+    names.series.push_back({series.name, {}, {}, false});
+    for (const auto& [x, y] : series.points) {
+      inner += point_mark(s, plane.x(x), plane.y(y), series.name + ": " + tick_text(x) + ", " + tick_text(y));
+    }
+  }
+  double height = kHeight;
+  const std::string below = legend(names, height, [&](std::size_t s, double x, double y) {
+    return point_mark(s, x + 12, y, scatter.series[s].name);
+  });
+  return document(scatter.title, height, inner, below);
+}
+
+}  // namespace cbc3d::reports

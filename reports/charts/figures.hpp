@@ -1,0 +1,30 @@
+// The figures of a run that are drawn from its numbers: histograms of the dihedral angles, distances and
+// times.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesher/core/progress.hpp"
+#include "reports/results/result.hpp"
+
+namespace cbc3d::reports {
+
+struct Figure {
+  std::string name;   ///< file name without extension
+  std::string title;  ///< one line
+  std::string svg;
+};
+
+/// For every case the distribution of the dihedral angles in steps of 5 degrees with all meshers; over the
+/// cases the Hausdorff distance, the surface distance and the time; for every case all meshers in the planes
+/// of distance against smallest dihedral angle and against element count.
+std::vector<Figure> result_figures(const std::vector<Json>& results);
+
+/// Writes each figure as NAME.svg into `folder`, which is made, and as NAME.png where rsvg-convert is there;
+/// one line says so where it is not.
+void write_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder,
+                   Progress& progress);
+
+}  // namespace cbc3d::reports

@@ -1,0 +1,162 @@
+// cbc3d-bench evaluate: any mesh against any segmentation.
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+
+#include "cases/phantoms/registry.hpp"
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/core/image_io.hpp"
+#include "mesher/core/mesh_io.hpp"
+#include "mesher/core/progress.hpp"
+#include "mesher/core/runtime.hpp"
+#include "metrics/evaluate.hpp"
+#include "reports/commands/commands.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+struct EvaluateCommandOptions {
+  std::string mesh, image, json;
+  std::string phantom;
+  std::vector<int> phantom_size;
+  std::vector<double> phantom_spacing_mm;
+  std::uint64_t phantom_seed = 0;
+  int threads = 0;
+  bool quiet = false;
+  metrics::EvaluateOptions metrics;
+};
+
+/// The figures of a section that are single numbers or flags, a line each.
+void print_section(const nlohmann::json& evaluation, const std::string& section) {
+  std::cout << section << '\n';
+  for (const auto& [key, value] : evaluation.at(section).items()) {
+    if (!value.is_structured() ||
+        (value.is_array() && value.size() <= 8 && !value.empty() && !value[0].is_structured())) {
+      std::cout << "  " << key << ": " << value.dump() << '\n';
+    }
+  }
+}
+
+/// What the image is, for the table of image data.
+nlohmann::json image_section(const LabelImage& image) {
+  const Vec3& spacing = image.frame.spacing_mm;
+  return {{"size", image.frame.size},
+          {"spacing_mm", {spacing.x, spacing.y, spacing.z}},
+          {"labels", std::vector<Label>(image.labels.begin() + 1, image.labels.end())}};
+}
+
+/// The true shape of the labels when the image is a phantom; empty when it is none or its shape is not known.
+metrics::LabelShapes shapes_of(const EvaluateCommandOptions& options) {
+  if (options.phantom.empty()) {
+    return {};
+  }
+  cases::Phantom phantom{options.phantom, {0, 0, 0}, {1, 1, 1}, options.phantom_seed, ""};
+  if (const cases::PhantomKind* kind = cases::find_phantom(options.phantom)) {
+    phantom.size = kind->size;
+    phantom.spacing_mm = kind->spacing_mm;
+  }
+  if (const auto& size = options.phantom_size; !size.empty()) {
+    phantom.size = {size[0], size[1], size[2]};
+  }
+  if (const auto& spacing_mm = options.phantom_spacing_mm; !spacing_mm.empty()) {
+    phantom.spacing_mm = {spacing_mm[0], spacing_mm[1], spacing_mm[2]};
+  }
+  return cases::phantom_signed_distance(phantom);
+}
+
+/// Straight into the file: of tens of thousands of labels the text is hundreds of megabytes.
+void write_json(const std::string& path, const nlohmann::json& evaluation) {
+  AtomicFile file(path);
+  std::ofstream out(file.temporary(), std::ios::binary);
+  out << std::setw(evaluation.at("quality").at("per_label").size() > 1000 ? 0 : 2) << evaluation << '\n';
+  out.close();
+  if (!out) {
+    throw JobError("cannot write '" + path + "': the disk is full or the file cannot be written");
+  }
+  file.commit();
+}
+
+int evaluate(const EvaluateCommandOptions& options) {
+  if (!options.json.empty()) {
+    require_writable(options.json);
+  }
+  set_thread_count(options.threads);
+  metrics::EvaluateOptions judged = options.metrics;
+  judged.shapes = shapes_of(options);
+  Progress progress(options.quiet);
+  progress.step("reading", 0);
+  const Mesh mesh = read_mesh(options.mesh);
+  const LabelImage image = read_label_image(options.image);
+  nlohmann::json evaluation = metrics::evaluate(mesh, image, judged, progress);
+  evaluation["image"] = image_section(image);
+  constexpr double kMegabytesPerByte = 1e-6;
+  evaluation["evaluation_peak_mb"] = kMegabytesPerByte * static_cast<double>(process_peak_rss_bytes());
+  progress.done();
+  if (!options.json.empty()) {
+    write_json(options.json, evaluation);
+  }
+  if (!options.quiet) {
+    for (const char* section : {"counts", "quality", "fidelity", "topology", "one_look", "shape"}) {
+      if (evaluation.contains(section)) {
+        print_section(evaluation, section);
+      }
+    }
+    std::cout << "faults: " << evaluation.at("faults").size() << '\n';
+    for (const nlohmann::json& fault : evaluation.at("faults")) {
+      std::cout << "  " << fault.get<std::string>() << '\n';
+    }
+  }
+  return kExitSuccess;
+}
+
+void add_phantom_options(CLI::App& parser, const std::shared_ptr<EvaluateCommandOptions>& options) {
+  parser.add_option(
+      "--phantom", options->phantom,
+      "the image is this phantom: compare with its true shape too, where that is known; one of " +
+          cases::phantom_names());
+  parser
+      .add_option("--phantom-size", options->phantom_size,
+                  "its voxels along each axis, X,Y,Z; default: the generator's own")
+      ->delimiter(',')
+      ->expected(3);
+  parser
+      .add_option("--phantom-spacing", options->phantom_spacing_mm,
+                  "its voxel spacing, mm, X,Y,Z; default: the generator's own")
+      ->delimiter(',')
+      ->expected(3);
+  parser.add_option("--phantom-seed", options->phantom_seed, "its seed")->capture_default_str();
+}
+
+}  // namespace
+
+Command add_evaluate_command(CLI::App& app) {
+  auto options = std::make_shared<EvaluateCommandOptions>();
+  CLI::App* parser = app.add_subcommand(
+      "evaluate", "Judges a mesh against a segmentation: counts, quality, fidelity, topology and faults");
+  parser->add_option("MESH", options->mesh, "mesh with an integer cell array `label`: .vtu, .vtk or .msh")
+      ->required();
+  parser->add_option("IMAGE", options->image, "label image: NIfTI, NRRD, MHA, INRIMAGE, ...")->required();
+  parser->add_option("--json", options->json, "write all figures to this file");
+  parser
+      ->add_flag("--certified,!--no-certified", options->metrics.certified,
+                 "bounds of the surface Hausdorff distances that are certain, not sampled alone")
+      ->default_str("on");
+  parser
+      ->add_option("--tolerance", options->metrics.tolerance_mm,
+                   "distance of these bounds (mm); 0: 0.02 of the smallest voxel spacing")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  parser
+      ->add_flag("--smooth,!--no-smooth", options->metrics.smooth,
+                 "distances to the smooth surfaces between the labels too")
+      ->default_str("on");
+  add_phantom_options(*parser, options);
+  parser->add_option("--threads", options->threads, "threads; 0: all cores")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  parser->add_flag("--quiet", options->quiet, "no progress and no figures on the screen");
+  return {parser, [options] { return evaluate(*options); }};
+}
+
+}  // namespace cbc3d::reports

@@ -1,0 +1,96 @@
+// cbc3d-bench gate: a run against a baseline.
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "reports/commands/commands.hpp"
+#include "reports/gate/gate.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+struct GateOptions {
+  std::string folder, baseline, junit, reason;
+  int threads = 0;
+  bool quiet = false;
+};
+
+std::vector<Json> results_of(const std::string& folder) {
+  const std::filesystem::path file = std::filesystem::path(folder) / "results.jsonl";
+  std::vector<Json> results = read_results(file);
+  if (results.empty()) {
+    throw InputError("'" + file.string() + "': no results; name the --out folder of a run");
+  }
+  return results;
+}
+
+int update(const GateOptions& options, const std::vector<Json>& results) {
+  const Json former = std::filesystem::exists(options.baseline) ? read_baseline(options.baseline) : Json();
+  write_text_file(options.baseline, make_baseline(results, former, options.reason).dump(1) + "\n");
+  if (!options.quiet) {
+    std::cout << "wrote the baseline '" << options.baseline << "': " << options.reason << '\n';
+  }
+  return kExitSuccess;
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+/// Tells GitHub, where it asks to be told.
+void tell_github(const Verdict& verdict) {
+  if (is_set("GITHUB_ACTIONS")) {
+    std::cout << to_annotations(verdict);
+  }
+  if (is_set("GITHUB_STEP_SUMMARY")) {
+    std::ofstream summary(std::getenv("GITHUB_STEP_SUMMARY"), std::ios::app);
+    summary << to_step_summary(verdict);
+    if (!summary.flush()) {
+      std::cerr << "cannot write the step summary '" << std::getenv("GITHUB_STEP_SUMMARY") << "'\n";
+    }
+  }
+}
+
+int gate(const GateOptions& options) {
+  const std::vector<Json> results = results_of(options.folder);
+  if (!options.reason.empty()) {
+    return update(options, results);
+  }
+  const Verdict verdict = compare(results, read_baseline(options.baseline));
+  if (!options.junit.empty()) {
+    write_text_file(options.junit, to_junit(verdict));
+  }
+  tell_github(verdict);
+  if (!options.quiet || !verdict.holds()) {
+    std::cout << to_text(verdict);
+  }
+  return verdict.holds() ? kExitSuccess : kExitGateFailed;
+}
+
+}  // namespace
+
+Command add_gate_command(CLI::App& app) {
+  auto options = std::make_shared<GateOptions>();
+  CLI::App* parser = app.add_subcommand(
+      "gate",
+      "Compares a run with a baseline: counts of deterministic meshers exactly, quality, fidelity and "
+      "memory within tolerances, CPU time as a ratio to a fixed piece of work. Exit code 1 when "
+      "something fell");
+  parser->add_option("DIR", options->folder, "folder of a run")->required();
+  parser->add_option("--baseline", options->baseline, "JSON file of the baseline")->required();
+  parser->add_option("--junit", options->junit, "write the checks as JUnit XML to this file");
+  parser
+      ->add_option("--update", options->reason,
+                   "write the run's figures to the baseline instead, with this reason; tolerances stay")
+      ->check([](const std::string& text) {
+        return text.find_first_not_of(" \t") == std::string::npos ? "give a reason" : std::string();
+      });
+  parser->add_option("--threads", options->threads, "threads (comparing needs one)")->capture_default_str();
+  parser->add_flag("--quiet", options->quiet, "print nothing when the gate holds");
+  return {parser, [options] { return gate(*options); }};
+}
+
+}  // namespace cbc3d::reports

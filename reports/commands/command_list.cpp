@@ -1,0 +1,101 @@
+// cbc3d-bench list: what there is to run.
+#include <iostream>
+#include <map>
+
+#include "cases/core/case.hpp"
+#include "cases/manifest.hpp"
+#include "reports/commands/commands.hpp"
+#include "reports/commands/selection.hpp"
+#include "reports/run/workplace.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+struct ListOptions {
+  std::string what;
+  std::vector<std::string> data, externals;
+  std::string manifests;
+  int threads = 0;
+  bool quiet = false;
+};
+
+void list_meshers(const ListOptions& options) {
+  for (const baselines::Adapter& mesher : all_meshers(options.externals)) {
+    const baselines::Availability availability = mesher.availability(bin_dir());
+    std::cout << mesher.name << ": " << mesher.description << " [" << mesher.licence << "]"
+              << (mesher.multithreaded ? "" : ", sequential")
+              << (mesher.deterministic ? "" : ", not deterministic")
+              << (availability.available ? "" : "\n    unavailable: " + availability.reason) << '\n';
+    for (const baselines::ParameterSpec& parameter : mesher.parameters) {
+      std::cout << "    " << parameter.key << " = " << parameter.default_value
+                << (parameter.unit.empty() ? "" : " " + parameter.unit) << ": " << parameter.description
+                << '\n';
+    }
+  }
+}
+
+void list_cases(const ListOptions& options) {
+  const auto folders = data_dirs({options.data.begin(), options.data.end()});
+  for (const cases::Case& subject : cases_of(options.manifests)) {
+    std::cout << subject.name << ": " << subject.title << '\n';
+    std::cout << "    suites:";
+    for (const std::string& suite : subject.suites) {
+      std::cout << ' ' << suite;
+    }
+    std::cout << '\n';
+    if (subject.image_file) {
+      std::cout << "    image: " << *subject.image_file << " (" << subject.image_source << ")\n";
+      bool found = false;
+      for (const auto& folder : folders) {
+        found = found || std::filesystem::exists(folder / *subject.image_file);
+      }
+      std::cout << (found ? "" : "    not found in the data folders: will be skipped\n");
+    } else if (subject.phantom) {
+      std::cout << "    phantom: " << subject.phantom->name << '\n';
+    }
+  }
+}
+
+void list_suites(const ListOptions& options) {
+  std::map<std::string, std::string> suites;
+  for (const cases::Case& subject : cases_of(options.manifests)) {
+    for (const std::string& suite : subject.suites) {
+      suites[suite] += " " + subject.name;
+    }
+  }
+  for (const auto& [suite, names] : suites) {
+    std::cout << suite << ":" << names << '\n';
+  }
+}
+
+}  // namespace
+
+Command add_list_command(CLI::App& app) {
+  auto options = std::make_shared<ListOptions>();
+  CLI::App* parser = app.add_subcommand("list", "Lists the meshers, the cases or the suites");
+  parser->add_option("WHAT", options->what, "meshers, cases or suites")
+      ->required()
+      ->check(CLI::IsMember({"meshers", "cases", "suites"}));
+  parser->add_option("--data", options->data, "folder with case images (may be given again)")
+      ->allow_extra_args(false);
+  parser
+      ->add_option("--external", options->externals,
+                   "JSON file of a mesher from outside (may be given again)")
+      ->allow_extra_args(false);
+  parser->add_option("--manifests", options->manifests,
+                     "folder of case manifests, *.json; default: the installed ones");
+  parser->add_option("--threads", options->threads, "threads (listing needs one)")->capture_default_str();
+  parser->add_flag("--quiet", options->quiet, "no progress (listing shows none)");
+  return {parser, [options] {
+            if (options->what == "meshers") {
+              list_meshers(*options);
+            } else if (options->what == "cases") {
+              list_cases(*options);
+            } else {
+              list_suites(*options);
+            }
+            return 0;
+          }};
+}
+
+}  // namespace cbc3d::reports

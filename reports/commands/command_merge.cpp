@@ -1,0 +1,42 @@
+// cbc3d-bench merge: the folders of several runs made one.
+#include <iostream>
+
+#include "mesher/core/error.hpp"
+#include "reports/commands/commands.hpp"
+#include "reports/run/merge.hpp"
+#include "reports/run/runner.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> folders;
+  std::string out;
+  int threads = 0;
+  bool quiet = false;
+};
+
+int merge(const MergeOptions& options) {
+  const std::vector<Json> results = merge_runs({options.folders.begin(), options.folders.end()}, options.out);
+  if (!options.quiet) {
+    std::cout << summary_line(results) << '\n';
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command add_merge_command(CLI::App& app) {
+  auto options = std::make_shared<MergeOptions>();
+  CLI::App* parser = app.add_subcommand(
+      "merge",
+      "Joins the folders of several runs, such as the shards of a job array, in one; then `tables` "
+      "and `report` work on that");
+  parser->add_option("DIR", options->folders, "folders of runs")->required();
+  parser->add_option("--out", options->out, "folder to make")->required();
+  parser->add_option("--threads", options->threads, "threads (merging needs one)")->capture_default_str();
+  parser->add_flag("--quiet", options->quiet, "no summary on the screen");
+  return {parser, [options] { return merge(*options); }};
+}
+
+}  // namespace cbc3d::reports

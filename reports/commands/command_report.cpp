@@ -1,0 +1,75 @@
+// cbc3d-bench report: a run as one HTML file.
+#include <iostream>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "reports/charts/pictures.hpp"
+#include "reports/commands/commands.hpp"
+#include "reports/commands/selection.hpp"
+#include "reports/output/html.hpp"
+#include "reports/output/output.hpp"
+#include "reports/run/runner.hpp"
+#include "reports/run/workplace.hpp"
+#include "reports/sweep/sweep.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+struct ReportOptions {
+  std::string folder, out, title, manifests;
+  std::vector<std::filesystem::path> microbenchmarks;
+  bool pictures = true, quiet = false;
+  int threads = 0;
+};
+
+int write_report(const ReportOptions& options) {
+  require_writable(options.out);
+  const std::filesystem::path folder = options.folder;
+  Report report;
+  report.results = read_results(folder / "results.jsonl");
+  if (report.results.empty()) {
+    throw InputError("'" + (folder / "results.jsonl").string() +
+                     "': no results; name the --out folder of a run");
+  }
+  report.cases = cases_of(options.manifests);
+  report.title = options.title.empty() ? "CBC3D: comparison of meshers" : options.title;
+  report.tables = all_tables(folder, report.results, report.cases);
+  if (!options.microbenchmarks.empty()) {
+    report.tables.push_back(microbenchmark_table(read_microbenchmarks(options.microbenchmarks)));
+  }
+  report.figures = all_figures(folder, report.results);
+  report.picture_dir = folder / "figures" / "small";
+  Progress progress(options.quiet);
+  if (options.pictures && !std::filesystem::exists(report.picture_dir)) {
+    draw_pictures(folder, report.results, bin_dir(), progress);
+  }
+  progress.done();
+  write_text_file(options.out, to_html(report));
+  if (!options.quiet) {
+    std::cout << options.out << ": " << summary_line(report.results) << '\n';
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command add_report_command(CLI::App& app) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App* parser = app.add_subcommand(
+      "report",
+      "Writes a run as one HTML file that opens from disk, on a phone and in print: tables, plots, "
+      "pictures, failed jobs, provenance");
+  parser->add_option("DIR", options->folder, "folder of a run or a sweep")->required();
+  parser->add_option("--out", options->out, "HTML file to write")->required();
+  parser->add_option("--title", options->title, "title of the report");
+  parser->add_option("--microbenchmarks", options->microbenchmarks,
+                     "Google Benchmark's JSON files to put in");
+  parser->add_option("--manifests", options->manifests,
+                     "folder of case manifests, *.json; default: the installed ones");
+  parser->add_flag("!--no-pictures", options->pictures, "do not draw pictures that are missing");
+  parser->add_option("--threads", options->threads, "threads (writing needs one)")->capture_default_str();
+  parser->add_flag("--quiet", options->quiet, "no progress");
+  return {parser, [options] { return write_report(*options); }};
+}
+
+}  // namespace cbc3d::reports

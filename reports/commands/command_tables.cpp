@@ -1,0 +1,48 @@
+// cbc3d-bench tables: tables and pictures again from results.jsonl.
+#include <iostream>
+
+#include "cases/manifest.hpp"
+#include "mesher/core/error.hpp"
+#include "reports/commands/commands.hpp"
+#include "reports/output/output.hpp"
+#include "reports/run/workplace.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+struct TablesOptions {
+  std::string folder;
+  OutputOptions output;
+  int threads = 0;
+};
+
+int write_again(const TablesOptions& options) {
+  const std::filesystem::path file = std::filesystem::path(options.folder) / "results.jsonl";
+  const std::vector<Json> results = read_results(file);
+  if (results.empty()) {
+    throw InputError("'" + file.string() + "': no results; name the --out folder of a run");
+  }
+  Progress progress(options.output.quiet);
+  write_output(options.folder, results, cases::load_cases(manifest_dir()), bin_dir(), options.output,
+               progress);
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command add_tables_command(CLI::App& app) {
+  auto options = std::make_shared<TablesOptions>();
+  CLI::App* parser = app.add_subcommand("tables", "Writes tables and pictures again from DIR/results.jsonl");
+  parser->add_option("DIR", options->folder, "folder of a run")->required();
+  parser
+      ->add_option("--format", options->output.formats,
+                   "forms of the tables, separated by commas: csv, json, md, tex")
+      ->delimiter(',')
+      ->capture_default_str();
+  parser->add_flag("!--no-pictures", options->output.pictures, "draw no cut sections and surfaces");
+  parser->add_option("--threads", options->threads, "threads (tables need one)")->capture_default_str();
+  parser->add_flag("--quiet", options->output.quiet, "no progress and no tables on the screen");
+  return {parser, [options] { return write_again(*options); }};
+}
+
+}  // namespace cbc3d::reports

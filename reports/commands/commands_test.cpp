@@ -1,0 +1,105 @@
+// The commands as their users run them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "mesher/core/image_io.hpp"
+#include "mesher/core/mesh_io.hpp"
+#include "reports/results/result.hpp"
+#include "reports/results/testing_folder.hpp"
+#include "reports/run/child_process.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+ChildResult bench(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), BENCH);
+  return run_child({arguments, 1, 120, 0});
+}
+
+Json read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return Json::parse(stream);
+}
+
+TEST(Commands, EvaluateWritesTheSectionsOfAResultLine) {
+  const TemporaryFolder folder;
+  LabelImage image;
+  image.frame.size = {6, 6, 6};
+  image.labels = {0, 1, 9};
+  image.voxels.assign(image.frame.voxel_count(), 1);
+  image.voxels[image.frame.offset(3, 3, 3)] = 2;
+  write_label_image(image, folder.path() / "box.nrrd");
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {5, 0, 0}, {0, 5, 0}, {0, 0, 5}};
+  mesh.tets.add({0, 1, 2, 3}, 1);
+  write_mesh(mesh, folder.path() / "tet.vtu");
+  const auto json = folder.path() / "figures.json";
+  const ChildResult result =
+      bench({"evaluate", folder.path() / "tet.vtu", folder.path() / "box.nrrd", "--json", json});
+  ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
+  const Json figures = read_json(json);
+  const Json empty = empty_result();
+  for (const char* section : {"counts", "quality", "fidelity", "topology"}) {
+    for (const auto& [key, value] : empty[section].items()) {
+      EXPECT_TRUE(figures[section].contains(key)) << section << "." << key;
+    }
+  }
+  EXPECT_EQ(figures["counts"]["tets"], 1);
+  EXPECT_EQ(figures["fidelity"]["missing_labels"], Json::array({9}));
+}
+
+TEST(Commands, BadInputIsOneLineAndExitCodeTwo) {
+  const TemporaryFolder folder;
+  const std::vector<std::vector<std::string>> calls{
+      {},
+      {"run", "--out", folder.path()},
+      {"run", "--suite", "nonsense", "--out", folder.path() / "out"},
+      {"run", "--case", "nonsense", "--out", folder.path() / "out"},
+      {"run", "--suite", "demo", "--mesher", "nonsense", "--out", folder.path() / "out"},
+      {"run", "--suite", "demo", "--set", "cgal", "--out", folder.path() / "out"},
+      {"run", "--suite", "demo", "--mesher", "cgal", "--set", "cgal.nonsense=1", "--out",
+       folder.path() / "out"},
+      {"run", "--suite", "demo", "--data", "/nowhere", "--out", folder.path() / "out"},
+      {"tables", folder.path()},
+      {"report", folder.path(), "--out", folder.path() / "r.html"},
+      {"report", folder.path(), "--out", "/nowhere/r.html"},
+      {"merge", folder.path(), "--out", folder.path() / "joint"},
+      {"sweep", "--case", "nonsense", "--out", folder.path() / "out"},
+      {"gate", folder.path(), "--baseline", folder.path() / "b.json"},
+      {"run", "--suite", "demo", "--shard", "3/2", "--out", folder.path() / "out"},
+      {"run", "--suite", "demo", "--shard", "x", "--out", folder.path() / "out"},
+      {"evaluate", folder.path() / "none.vtu", folder.path() / "none.nrrd"},
+      {"phantom", "nonsense", "--out", folder.path() / "p.nrrd"}};
+  for (const auto& call : calls) {
+    const ChildResult result = bench(call);
+    EXPECT_EQ(result.end, ChildEnd::exited);
+    EXPECT_EQ(result.exit_code, 2) << ::testing::PrintToString(call);
+    EXPECT_FALSE(last_line(result.stderr_tail).empty());
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "results.jsonl"));
+}
+
+TEST(Commands, PhantomHonoursSizeAndSpacing) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "p.nrrd";
+  const ChildResult result =
+      bench({"phantom", "shells", "--size", "20,24,28", "--spacing", "1,1.5,2", "--out", file, "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
+  const LabelImage image = read_label_image(file);
+  EXPECT_EQ(image.frame.size, (Index3{20, 24, 28}));
+  EXPECT_EQ(image.frame.spacing_mm, (Vec3{1, 1.5, 2}));
+}
+
+TEST(Commands, EveryCommandHasHelp) {
+  for (const char* command :
+       {"list", "run", "sweep", "gate", "report", "merge", "evaluate", "tables", "phantom"}) {
+    EXPECT_EQ(bench({command, "--help"}).exit_code, 0) << command;
+  }
+  for (const char* what : {"meshers", "cases", "suites"}) {
+    EXPECT_EQ(bench({"list", what}).exit_code, 0) << what;
+  }
+}
+
+}  // namespace
+}  // namespace cbc3d::reports

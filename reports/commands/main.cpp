@@ -1,0 +1,43 @@
+// cbc3d-bench: meshers on cases, measured alike.
+#include <iostream>
+#include <string_view>
+
+#include "mesher/core/error.hpp"
+#include "mesher/core/runtime.hpp"
+#include "reports/commands/commands.hpp"
+
+int main(int argc, char** argv) {
+  // Not for `run`: the meshers that it starts keep the environment they were given.
+  if (argc > 1 && std::string_view(argv[1]) == "evaluate") {
+    cbc3d::let_waiting_threads_sleep(argv);
+  }
+  using namespace cbc3d;
+  CLI::App app{
+      "Runs meshers on segmented images, judges the meshes and writes comparison tables.\n"
+      "Exit codes: 0 success, 1 a gate that does not hold, 2 bad usage or input, 3 a job failed."};
+  app.require_subcommand(1);
+  const std::vector<reports::Command> commands{
+      reports::add_list_command(app),   reports::add_run_command(app),   reports::add_evaluate_command(app),
+      reports::add_tables_command(app), reports::add_merge_command(app), reports::add_gate_command(app),
+      reports::add_report_command(app), reports::add_sweep_command(app), reports::add_phantom_command(app)};
+  try {
+    app.parse(argc, argv);
+    for (const reports::Command& command : commands) {
+      if (command.parser->parsed()) {
+        return command.run();
+      }
+    }
+    return kExitBadInput;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitSuccess : kExitBadInput;
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+    return kExitBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out of memory\n";
+    return kExitJobFailed;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return kExitJobFailed;
+  }
+}

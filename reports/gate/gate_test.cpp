@@ -1,0 +1,240 @@
+#include "reports/gate/gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "reports/results/testing_folder.hpp"
+#include "reports/run/child_process.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+Json good_line(int repeat = 0) {
+  Json line = empty_result();
+  line["case"] = "box";
+  line["mesher"] = "cbc3d";
+  line["threads"] = 1;
+  line["repeat"] = repeat;
+  line["status"] = "ok";
+  line["mesh_sha256"] = "aa";
+  line["counts"] = {{"vertices", 10}, {"tets", 20}, {"pyramids", 0}, {"wedges", 0}, {"hexes", 0}};
+  line["quality"] = {
+      {"min_dihedral_deg", 12.0}, {"max_dihedral_deg", 150.0}, {"min_scaled_jacobian", 0.2}, {"inverted", 0}};
+  line["fidelity"]["hausdorff_mm"] = 2.0;
+  line["fidelity"]["surface_hausdorff_mm"] = 1.5;
+  line["fidelity"]["dice_min"] = 0.95;
+  line["fidelity"]["missing_labels"] = Json::array();
+  line["fidelity"]["per_label"] = {{{"label", 1}, {"volume_error_percent", -2.0}}};
+  line["topology"]["conforming"] = true;
+  line["topology"]["self_intersections"] = 0;
+  line["time_s"] = {{"mesh", 1.0}, {"cpu", 1.0}, {"stages", Json::object()}, {"reference_cpu", 0.02}};
+  line["peak_rss_bytes"] = 100'000'000;
+  line["provenance"]["mesher_deterministic"] = true;
+  return line;
+}
+
+std::vector<Json> good_run() {
+  return {good_line(0), good_line(1)};
+}
+
+Json baseline() {
+  return make_baseline(good_run(), Json(), "the first");
+}
+
+TEST(Gate, HoldsForTheSameRun) {
+  const Verdict verdict = compare(good_run(), baseline());
+  EXPECT_TRUE(verdict.holds()) << to_text(verdict);
+  EXPECT_GT(verdict.checks.size(), 12U);
+}
+
+struct Planted {
+  const char* pointer;
+  Json value;
+  const char* words;  // that the text must have
+};
+
+class PlantedRegression : public testing::TestWithParam<Planted> {};
+
+TEST_P(PlantedRegression, Falls) {
+  std::vector<Json> run = good_run();
+  for (Json& line : run) {
+    line[Json::json_pointer(GetParam().pointer)] = GetParam().value;
+  }
+  const Verdict verdict = compare(run, baseline());
+  ASSERT_EQ(verdict.fallen(), 1U) << to_text(verdict);
+  EXPECT_TRUE(verdict.checks[0].fell);
+  EXPECT_NE(to_text(verdict).find(GetParam().words), std::string::npos) << to_text(verdict);
+  EXPECT_NE(to_junit(verdict).find("failures=\"1\""), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, PlantedRegression,
+    testing::Values(
+        Planted{"/counts/tets", 21, "tetrahedra was 20, is 21 (+1, +5.0 %; allowed 0)"},
+        Planted{"/counts/vertices", 9, "vertices was 10, is 9"},
+        Planted{"/quality/min_dihedral_deg", 11.0, "smallest dihedral angle was 12 deg, is 11 deg"},
+        Planted{"/quality/max_dihedral_deg", 153.0, "largest dihedral angle"},
+        Planted{"/quality/inverted", 1, "inverted elements was 0, is 1"},
+        Planted{"/fidelity/hausdorff_mm", 2.2, "Hausdorff distance (the paper's) was 2 mm, is 2.2000 mm"},
+        Planted{"/fidelity/per_label/0/volume_error_percent", 2.5, "largest volume error"},
+        Planted{"/fidelity/missing_labels", {7}, "label 7 was in the mesh and is not any more"},
+        Planted{"/topology/conforming", false, "conforming was 1, is 0"},
+        Planted{"/topology/self_intersections", 1, "self-intersections was 0, is 1 (+1; allowed 0)"},
+        Planted{"/peak_rss_bytes", 200'000'000, "peak memory was 100.0 MB, is 200.0 MB"},
+        Planted{"/time_s/cpu", 1.5, "CPU time over the reference work's was 50, is 75"},
+        Planted{"/status", "crashed", "was ok, is crashed"},
+        Planted{"/parameters", {{"size", "2"}}, "run as the baseline was, or --update"}));
+
+TEST(Gate, LetsPassWhatIsWithinBothTolerances) {
+  std::vector<Json> run = good_run();
+  for (Json& line : run) {
+    line["quality"]["min_dihedral_deg"] = 11.6;  // -3 %, but only .4 degrees
+    line["fidelity"]["hausdorff_mm"] = 2.09;
+    line["peak_rss_bytes"] = 140'000'000;
+    line["time_s"]["cpu"] = 1.35;
+  }
+  EXPECT_TRUE(compare(run, baseline()).holds()) << to_text(compare(run, baseline()));
+}
+
+TEST(Gate, AMachineHalfAsFastIsNoRegression) {
+  std::vector<Json> run = good_run();
+  for (Json& line : run) {
+    line["time_s"]["cpu"] = 2.0;
+    line["time_s"]["reference_cpu"] = 0.04;
+  }
+  EXPECT_TRUE(compare(run, baseline()).holds());
+}
+
+TEST(Gate, RepeatsOfADeterministicMesherMustBeTheSame) {
+  std::vector<Json> run = good_run();
+  run[1]["mesh_sha256"] = "bb";
+  const Verdict verdict = compare(run, baseline());
+  EXPECT_EQ(verdict.fallen(), 1U);
+  EXPECT_NE(to_text(verdict).find("mesh_sha256 is \"aa\" in repeat 0 and \"bb\" in repeat 1"),
+            std::string::npos);
+  EXPECT_THROW(make_baseline(run, Json(), "no"), InputError);
+}
+
+TEST(Gate, CountsOfOtherMeshersHaveATolerance) {
+  std::vector<Json> run = good_run();
+  for (Json& line : run) {
+    line["provenance"]["mesher_deterministic"] = false;
+    line["counts"]["tets"] = 1000;
+  }
+  const Json free = make_baseline(run, Json(), "free");
+  run[1]["mesh_sha256"] = "bb";
+  for (Json& line : run) {
+    line["counts"]["tets"] = 1040;
+  }
+  EXPECT_TRUE(compare(run, free).holds()) << to_text(compare(run, free));
+  for (Json& line : run) {
+    line["counts"]["tets"] = 1060;
+  }
+  EXPECT_FALSE(compare(run, free).holds());
+}
+
+TEST(Gate, TheWorstComesFirstAndBetterIsSaid) {
+  std::vector<Json> run = good_run();
+  for (Json& line : run) {
+    line["fidelity"]["hausdorff_mm"] = 2.2;
+    line["peak_rss_bytes"] = 1'000'000'000;
+    line["quality"]["min_dihedral_deg"] = 20.0;
+  }
+  const Verdict verdict = compare(run, baseline());
+  ASSERT_EQ(verdict.fallen(), 2U);
+  EXPECT_EQ(verdict.checks[0].figure, "peak_rss_bytes");
+  EXPECT_EQ(verdict.checks[1].figure, "fidelity.hausdorff_mm");
+  EXPECT_NE(to_text(verdict).find("better  box, cbc3d, 1 thread: smallest dihedral angle"),
+            std::string::npos);
+}
+
+TEST(Gate, JobsThatAreMissingFallAndNewOnesAreNoted) {
+  std::vector<Json> run = good_run();
+  for (Json& line : run) {
+    line["threads"] = 2;
+  }
+  const Verdict verdict = compare(run, baseline());
+  EXPECT_EQ(verdict.fallen(), 1U);
+  EXPECT_EQ(verdict.checks[0].text, "is in the baseline and was not run");
+  ASSERT_EQ(verdict.notes.size(), 1U);
+}
+
+TEST(Gate, AnUpdateKeepsTolerancesAndHistory) {
+  Json former = baseline();
+  former["tolerances"]["time"]["relative"] = 0.1;
+  const Json next = make_baseline(good_run(), former, "better angles");
+  EXPECT_EQ(next["tolerances"]["time"]["relative"], 0.1);
+  ASSERT_EQ(next["history"].size(), 2U);
+  EXPECT_EQ(next["history"][1]["reason"], "better angles");
+}
+
+TEST(Gate, BadBaselinesAreRefusedByFileAndKey) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "baseline.json";
+  const auto error_of = [&](const std::string& text) {
+    write_text_file(file, text);
+    try {
+      read_baseline(file);
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("baseline.json"), std::string::npos);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(error_of(baseline().dump()), "");
+  EXPECT_NE(error_of("{").find("is no JSON"), std::string::npos);
+  const std::vector<std::pair<std::string, Json>> wrong{{"/format", "x"},
+                                                        {"/tolerances", 3},
+                                                        {"/tolerances/colour", 3},
+                                                        {"/tolerances/time/relative", -1},
+                                                        {"/jobs", Json::array()},
+                                                        {"/jobs/0/case", 3},
+                                                        {"/jobs/0/missing_labels", {"x"}},
+                                                        {"/jobs/0/figures/counts.tets", "many"},
+                                                        {"/jobs/0/figures/colour", 1}};
+  for (const auto& [pointer, value] : wrong) {
+    Json bad = baseline();
+    bad[Json::json_pointer(pointer)] = value;
+    const std::string key = pointer.substr(pointer.rfind('/') + 1);
+    EXPECT_NE(error_of(bad.dump()).find(key), std::string::npos) << pointer;
+  }
+  EXPECT_THROW(read_baseline(folder.path() / "none.json"), InputError);
+}
+
+TEST(Gate, TheCommandTellsJUnitAndGitHub) {
+  const TemporaryFolder folder;
+  for (const Json& line : good_run()) {
+    append_result(folder.path() / "results.jsonl", line);
+  }
+  const auto call = [&](std::vector<std::string> more) {
+    std::vector<std::string> argv{BENCH, "gate", folder.path(), "--baseline", folder.path() / "b.json"};
+    argv.insert(argv.end(), more.begin(), more.end());
+    return run_child({argv, 1, 60, 0}).exit_code;
+  };
+  EXPECT_EQ(call({}), 2);  // there is no baseline yet
+  EXPECT_EQ(call({"--update", " "}), 2);
+  EXPECT_EQ(call({"--update", "the first"}), 0);
+  EXPECT_EQ(call({}), 0);
+  std::vector<Json> run = good_run();
+  run[0]["counts"]["tets"] = run[1]["counts"]["tets"] = 21;
+  replace_results(folder.path() / "results.jsonl", run);
+  ::setenv("GITHUB_STEP_SUMMARY", (folder.path() / "summary.md").c_str(), 1);
+  EXPECT_EQ(call({"--junit", folder.path() / "gate.xml"}), 1);
+  ::unsetenv("GITHUB_STEP_SUMMARY");
+  const auto text_of = [&](const char* name) {
+    std::ifstream stream(folder.path() / name);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  EXPECT_NE(text_of("summary.md").find("| box, cbc3d, 1 thread | counts.tets | tetrahedra was 20"),
+            std::string::npos);
+  EXPECT_NE(text_of("gate.xml").find("<failure message=\"tetrahedra was 20"), std::string::npos);
+  EXPECT_EQ(to_annotations(compare(run, baseline())),
+            "::error title=cbc3d-bench gate::box, cbc3d, 1 thread: tetrahedra was 20, is 21 (+1, +5.0 %25; "
+            "allowed 0)\n");
+}
+
+}  // namespace
+}  // namespace cbc3d::reports

@@ -1,0 +1,294 @@
+#include "reports/output/html.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "reports/charts/picture_kinds.hpp"
+#include "reports/results/columns.hpp"
+#include "reports/run/runner.hpp"
+#include "reports/tables/markup.hpp"
+
+namespace cbc3d::reports {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* kStyle = R"(
+:root { color-scheme: light; }
+* { box-sizing: border-box; }
+body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", sans-serif; color: #1c1e21; background: #fff;
+       margin: 0 auto; padding: 1rem; max-width: 76rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; margin: .5rem 0; }
+h2 { font-size: 1.3rem; border-bottom: 2px solid #0072b2; margin: 2.2rem 0 .8rem; padding-bottom: .2rem; }
+h3 { font-size: 1.05rem; margin: 1.4rem 0 .4rem; }
+nav a { display: inline-block; margin: 0 .9rem .2rem 0; }
+a { color: #005a8f; }
+.scroll { overflow-x: auto; -webkit-overflow-scrolling: touch; }
+table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .3rem .6rem; border-bottom: 1px solid #d8dbe0; text-align: right; vertical-align: top; }
+th { background: #f1f3f6; }
+th:nth-child(-n+2), td:nth-child(-n+2), .left td, .left th { text-align: left; }
+td.failed { color: #a3240c; }
+tbody tr:hover { background: #f7f9fb; }
+.notes { font-size: .8rem; color: #444; padding-left: 1.4rem; overflow-wrap: anywhere; }
+figure { margin: 0; }
+figcaption { font-size: .8rem; color: #444; }
+.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 1rem; }
+.plots svg { width: 100%; height: auto; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 15rem), 1fr)); gap: .8rem; }
+.pictures img { width: 100%; height: auto; border: 1px solid #d8dbe0; display: block; }
+.badge { display: inline-block; border-radius: .8rem; padding: .05rem .7rem; margin: 0 .4rem .3rem 0; background: #e6e9ed; }
+.badge.ok { background: #cfeadb; } .badge.bad { background: #f7d5cc; }
+dl { display: grid; grid-template-columns: minmax(7rem, auto) 1fr; gap: .1rem 1rem; font-size: .85rem; }
+dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
+td code { font-size: .78rem; white-space: nowrap; }
+@media (max-width: 40rem) {
+  body { padding: .7rem; font-size: 15px; } h1 { font-size: 1.35rem; }
+  th:first-child, td:first-child { position: sticky; left: 0; background: #fff; min-width: 6rem; max-width: 9rem;
+                                   overflow-wrap: break-word; }
+  .plots figure { overflow-x: auto; } .plots svg { min-width: 28rem; }
+  dl { grid-template-columns: 1fr; } dd { margin-bottom: .4rem; }
+}
+@media print {
+  body { max-width: none; padding: 0; font-size: 10pt; } nav { display: none; }
+  .scroll { overflow: visible; } table { font-size: 7.5pt; } td code { font-size: 5.5pt; } th, td { padding: .1rem .25rem; }
+  tr, figure, .plots > *, .pictures > * { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .pictures { grid-template-columns: repeat(4, 1fr); } .plots { grid-template-columns: repeat(2, 1fr); }
+  a { color: inherit; text-decoration: none; }
+}
+)";
+
+std::string element(const std::string& name, const std::string& content, const std::string& attributes = "") {
+  return "<" + name + (attributes.empty() ? "" : " " + attributes) + ">" + content + "</" + name + ">\n";
+}
+
+/// True for a table of words rather than figures.
+bool holds_texts(const Table& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) {
+    return std::all_of(row.cells.begin(), row.cells.end(),
+                       [](const Cell& cell) { return !cell.text.empty(); });
+  });
+}
+
+std::string table_html(const Table& table) {
+  const Footnotes footnotes(table);
+  const auto rows =
+      texts_of(table, footnotes, [](std::size_t number) { return " [" + std::to_string(number) + "]"; });
+  std::string html = element("h3", markup_text(table.title), "id=\"table-" + markup_text(table.name) + "\"");
+  html += holds_texts(table) ? "<div class=\"scroll\"><table class=\"left\">\n"
+                             : "<div class=\"scroll\"><table>\n";
+  for (std::size_t line = 0; line < rows.size(); ++line) {
+    html += line == 0 ? "<thead><tr>" : "<tr>";
+    for (std::size_t column = 0; column < rows[line].size(); ++column) {
+      const std::string text = markup_text(rows[line][column]);
+      const bool failed = line > 0 && (rows[line][column].rfind("- [", 0) == 0 ||
+                                       (column >= 2 && table.rows[line - 1].cells[column - 2].missed));
+      html +=
+          line == 0 ? "<th>" + text + "</th>" : (failed ? "<td class=\"failed\">" : "<td>") + text + "</td>";
+    }
+    html += line == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
+  }
+  html += "</tbody></table></div>\n";
+  if (!footnotes.notes().empty()) {
+    std::string notes;
+    for (const std::string& note : footnotes.notes()) {
+      notes += element("li", markup_text(note));
+    }
+    html += element("ol", notes, "class=\"notes\"");
+  }
+  return html;
+}
+
+std::string summary(const Report& report) {
+  std::map<std::string, int> counts;
+  for (const Json& result : report.results) {
+    ++counts[result.value("status", "?")];
+  }
+  std::string html;
+  for (const char* status : kStatuses) {
+    if (counts.contains(status)) {
+      const std::string name = status;
+      html += element("span", std::to_string(counts[name]) + " " + name,
+                      name == "ok" ? "class=\"badge ok\"" : "class=\"badge bad\"");
+    }
+  }
+  return element("p", std::to_string(report.results.size()) + " jobs: " + html);
+}
+
+/// The picture's bytes as a data address; empty when there is none.
+std::string data_address(const fs::path& stem) {
+  for (const auto& [extension, type] : {std::pair{".jpg", "image/jpeg"}, std::pair{".png", "image/png"}}) {
+    std::ifstream stream(stem.string() + extension, std::ios::binary);
+    if (stream) {
+      const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+      return std::string("data:") + type + ";base64," + base64(bytes);
+    }
+  }
+  return "";
+}
+
+/// All meshers' pictures of one kind side by side.
+std::string picture_row(const Report& report, const std::string& case_name, const PictureKind& kind) {
+  std::string html;
+  std::set<std::string> seen;
+  for (const Json& result : report.results) {
+    const std::string mesher = result.value("mesher", "");
+    if (result.value("case", "") != case_name || !seen.insert(mesher).second) {
+      continue;
+    }
+    const std::string address =
+        data_address(report.picture_dir / (picture_stem(case_name, mesher) + "-" + kind.name));
+    if (!address.empty()) {
+      const std::string label = case_name + ", " + mesher + ": " + kind.title;
+      html += element("figure", "<img alt=\"" + markup_text(label) + "\" src=\"" + address + "\">" +
+                                    element("figcaption", markup_text(mesher)));
+    }
+  }
+  return html.empty() ? ""
+                      : element("h4", markup_text(kind.title)) + element("div", html, "class=\"pictures\"");
+}
+
+std::string pictures(const Report& report) {
+  std::string html;
+  for (const std::string& case_name : case_names(report.results)) {
+    std::string rows;
+    for (const PictureKind& kind : picture_kinds()) {
+      rows += picture_row(report, case_name, kind);
+    }
+    html += rows.empty() ? "" : element("h3", markup_text(case_name)) + rows;
+  }
+  return html;
+}
+
+std::string plots(const Report& report) {
+  std::string html;
+  for (const Figure& figure : report.figures) {
+    html += element("figure", figure.svg, "id=\"figure-" + markup_text(figure.name) + "\"");
+  }
+  return html.empty() ? "" : element("div", html, "class=\"plots\"");
+}
+
+std::string failures(const Report& report) {
+  std::string rows;
+  for (const Json& result : report.results) {
+    const std::string status = result.value("status", "?");
+    if (status != "ok") {
+      const std::string reason = result.value("reason", "");
+      rows += "<tr><td>" + markup_text(result_id(result)) + "</td><td>" + markup_text(status) + "</td><td>" +
+              markup_text(reason.empty() ? "no reason was given" : reason) + "</td></tr>\n";
+    }
+  }
+  if (rows.empty()) {
+    return element("p", "None.");
+  }
+  return "<div class=\"scroll\"><table "
+         "class=\"left\"><thead><tr><th>job</th><th>status</th><th>reason</th></tr>"
+         "</thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string plain(const Json& value) {
+  return value.is_string()         ? value.get<std::string>()
+         : value.is_number_float() ? format_number(value.get<double>(), 2)
+                                   : value.dump();
+}
+
+/// The distinct values of a key of the provenance, or of many their range.
+std::string joint_value(const Report& report, const char* key) {
+  std::vector<Json> values;
+  for (const Json& result : report.results) {
+    const Json value = figure(result, {"provenance", key});
+    if (!value.is_null() && std::find(values.begin(), values.end(), value) == values.end()) {
+      values.push_back(value);
+    }
+  }
+  if (values.size() > 3) {
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());  // numbers as numbers
+    return plain(*lowest) + " … " + plain(*highest) + " (" + std::to_string(values.size()) + " values)";
+  }
+  std::string text;
+  for (const Json& value : values) {
+    text += (text.empty() ? "" : "; ") + plain(value);
+  }
+  return text;
+}
+
+/// "key=value, key=value".
+std::string parameters_text(const Json& result) {
+  const Json parameters = result.value("parameters", Json::object());
+  std::string text;
+  for (const auto& [key, value] : parameters.items()) {
+    text += (text.empty() ? "" : ", ") + key + "=" + plain(value);
+  }
+  return text;
+}
+
+std::string job_digests(const Report& report) {
+  std::string rows;
+  for (const Json& result : report.results) {
+    const auto text = [&](const char* key) {
+      const Json value = figure(result, {"provenance", key});
+      const std::string all = value.is_null() ? "-" : plain(value);
+      return "<td><code>" + markup_text(all.size() == 64 ? all.substr(0, 12) : all) + "</code></td>";
+    };
+    rows += "<tr><td>" + markup_text(result_id(result)) + "</td><td>" + markup_text(parameters_text(result)) +
+            "</td>" + text("mesher_version") + text("mesher_licence") + text("seed") + text("image_sha256") +
+            text("configuration_sha256") + text("program_sha256") + text("load_1min") + text("utc") +
+            "</tr>\n";
+  }
+  return "<div class=\"scroll\"><table "
+         "class=\"left\"><thead><tr><th>job</th><th>parameters</th><th>version</th>"
+         "<th>licence</th><th>seed</th><th>image sha256</th><th>configuration sha256</th><th>program "
+         "sha256</th>"
+         "<th>load</th><th>UTC</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string provenance_html(const Report& report) {
+  std::string list;
+  for (const auto& [key, title] :
+       {std::pair{"cbc3d_version", "cbc3d"}, std::pair{"git_commit", "git commit"},
+        std::pair{"git_dirty", "sources differ from it"}, std::pair{"compiler", "compiler"},
+        std::pair{"compiler_flags", "flags"}, std::pair{"libraries", "libraries"}, std::pair{"cpu", "CPU"},
+        std::pair{"cores", "cores"}, std::pair{"memory_bytes", "memory (bytes)"},
+        std::pair{"system", "system"}, std::pair{"load_1min", "load (1 min)"},
+        std::pair{"utc", "time (UTC)"}}) {
+    const std::string value = joint_value(report, key);
+    list += element("dt", title) + element("dd", value.empty() ? "-" : markup_text(value));
+  }
+  return element("dl", list) + job_digests(report);
+}
+
+}  // namespace
+
+std::string to_html(const Report& report) {
+  const std::string title = markup_text(report.title);
+  std::string tables;
+  for (const Table& table : report.tables) {
+    tables += table_html(table);
+  }
+  std::string body = element("h1", title) + summary(report);
+  std::string links;
+  const std::vector<std::array<std::string, 3>> sections{
+      {"tables", "Tables", tables},
+      {"plots", "Plots", plots(report)},
+      {"pictures", "Pictures", pictures(report)},
+      {"failed", "Jobs that are not ok", failures(report)},
+      {"provenance", "Provenance", provenance_html(report)}};
+  std::string content;
+  for (const auto& [id, name, html] : sections) {
+    if (!html.empty()) {
+      links += "<a href=\"#" + id + "\">" + name + "</a>";
+      content += element("section", element("h2", name) + html, "id=\"" + id + "\"");
+    }
+  }
+  body += element("nav", links) + content;
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         title + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n" + body + "</body></html>\n";
+}
+
+}  // namespace cbc3d::reports

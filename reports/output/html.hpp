@@ -1,0 +1,29 @@
+// The report of a run as one HTML file that needs nothing else: no network, no script, no other file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cases/core/case.hpp"
+#include "reports/charts/figures.hpp"
+#include "reports/results/result.hpp"
+#include "reports/tables/table.hpp"
+
+namespace cbc3d::reports {
+
+/// What a report shows.
+struct Report {
+  std::string title;
+  std::vector<Json> results;
+  std::vector<cases::Case> cases;
+  std::vector<Table> tables;
+  std::vector<Figure> figures;        ///< put in as SVG
+  std::filesystem::path picture_dir;  ///< CASE-MESHER-KIND.jpg or .png are put in from here
+};
+
+/// Summary, tables, plots, pictures case by case, jobs that failed with their reasons, and at the end where
+/// the figures come from. Readable on a phone (tables scroll on their own, pictures stack) and in print.
+std::string to_html(const Report& report);
+
+}  // namespace cbc3d::reports

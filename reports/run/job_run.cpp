@@ -1,0 +1,365 @@
+#include "reports/run/job_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "cases/core/sha256.hpp"
+#include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
+#include "reports/run/child_process.hpp"
+#include "reports/run/provenance.hpp"
+#include "reports/run/reference_work.hpp"
+
+namespace cbc3d::reports {
+namespace {
+namespace fs = std::filesystem;
+
+/// Pools of other kinds would find themselves on the one core that the first thread is bound to.
+bool binds_threads(const RunOptions& options, const Job& job) {
+  return options.bind_threads && job.mesher->openmp;
+}
+
+/// The files of one job.
+struct JobFiles {
+  fs::path mesh, report, evaluation, log;
+
+  JobFiles(const fs::path& out_dir, const std::string& stem, const std::string& extension)
+      : mesh(out_dir / "meshes" / (stem + extension)),
+        report(out_dir / "logs" / (stem + ".report.json")),
+        evaluation(out_dir / "logs" / (stem + ".evaluation.json")),
+        log(out_dir / "logs" / (stem + ".log")) {}
+
+  /// What an earlier run left must not be taken for this one's.
+  void remove_all() const {
+    std::error_code error;
+    for (const fs::path& file : {mesh, report, evaluation, log}) {
+      fs::remove(file, error);
+    }
+  }
+};
+
+void set_status(Json& result, const std::string& status, const std::string& reason) {
+  result["status"] = status;
+  result["reason"] = reason;
+}
+
+/// The object in a file; empty where there is none or it is broken.
+nlohmann::json read_json(const fs::path& file) {
+  std::ifstream stream(file);
+  nlohmann::json content = stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json();
+  return content.is_object() ? content : nlohmann::json::object();
+}
+
+std::string text_at(const nlohmann::json& object, const char* key) {
+  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string();
+}
+
+nlohmann::json object_at(const nlohmann::json& object, const char* key) {
+  return object.contains(key) && object[key].is_object() ? object[key] : nlohmann::json::object();
+}
+
+std::string number_text(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
+}
+
+/// What a mesher printed may be anything; a result line is UTF-8.
+std::string printable(const std::string& text) {
+  std::string clean = nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return nlohmann::json::parse(clean).get<std::string>();
+}
+
+bool succeeded(const ChildResult& child) {
+  return child.end == ChildEnd::exited && child.exit_code == 0;
+}
+
+/// Status and reason of a child that did not end with success. `report` is what the child wrote of itself.
+void set_failure(Json& result, const ChildResult& child, const nlohmann::json& report,
+                 const RunOptions& options) {
+  const std::string line = printable(last_line(child.stderr_tail));
+  switch (child.end) {
+    case ChildEnd::timeout:
+      return set_status(result, "timeout", "not done after " + number_text(options.timeout_s) + " s");
+    case ChildEnd::out_of_memory:
+      return set_status(result, "out_of_memory",
+                        "used more than " +
+                            number_text(static_cast<double>(options.memory_limit_bytes) / double(1 << 30)) +
+                            " GiB");
+    case ChildEnd::signalled:
+      return set_status(result, "crashed",
+                        signal_name(child.signal) + (line.empty() ? "" : "; last line: " + line));
+    case ChildEnd::not_started:
+      return set_status(result, "failed", line);
+    case ChildEnd::exited:
+      break;
+  }
+  const std::string reason = text_at(report, "reason");
+  const std::string fallback = line.empty() ? "exit code " + std::to_string(child.exit_code) : line;
+  set_status(result, text_at(report, "status") == "out_of_memory" ? "out_of_memory" : "failed",
+             reason.empty() ? fallback : reason);
+}
+
+/// Time and memory: the mesher's own figures, which leave out reading and writing. For a mesher from outside
+/// that tells none, what the system saw from its start to its end.
+void set_costs(Json& result, const ChildResult& child, const nlohmann::json& report, bool external) {
+  const nlohmann::json seconds = object_at(report, "seconds");
+  const bool whole_process = external && succeeded(child) && !seconds.contains("total");
+  result["time_s"]["mesh"] =
+      whole_process ? nlohmann::json(child.wall_s) : seconds.value("total", nlohmann::json());
+  result["time_s"]["cpu"] =
+      whole_process ? nlohmann::json(child.cpu_s) : seconds.value("cpu", nlohmann::json());
+  result["time_s"]["stages"] = object_at(seconds, "stages");
+  result["time_s"]["includes_files"] = whole_process;
+  result["time_s"]["process_wall"] = child.wall_s;
+  result["time_s"]["process_cpu"] = child.cpu_s;
+  const auto reported = report.value("peak_rss_bytes", nlohmann::json());
+  result["peak_rss_bytes"] =
+      std::max(child.peak_rss_bytes, reported.is_number() ? reported.get<std::int64_t>() : 0);
+}
+
+/// A report without its long lists, and without what the result line has in other places.
+nlohmann::json worth_keeping(const nlohmann::json& report) {
+  constexpr std::size_t kLongestList = 64;
+  nlohmann::json kept = nlohmann::json::object();
+  for (const auto& [key, value] : report.items()) {
+    if (value.is_object()) {
+      kept[key] = worth_keeping(value);
+    } else if (!value.is_array() || value.size() <= kLongestList) {
+      kept[key] = value;
+    }
+  }
+  return kept;
+}
+
+nlohmann::json mesher_report(const nlohmann::json& report) {
+  nlohmann::json kept = worth_keeping(report);
+  for (const char* key : {"status", "reason", "counts", "seconds", "peak_rss_bytes"}) {
+    kept.erase(key);
+  }
+  return kept;
+}
+
+/// Digest of a program's file; null when there is none. Programs do not change during a run.
+Json program_digest(const std::string& program) {
+  static std::map<std::string, Json> known;
+  const auto found = known.find(program);
+  if (found != known.end()) {
+    return found->second;
+  }
+  const fs::path file = baselines::find_program(program);
+  Json digest;
+  try {
+    digest = file.empty() ? Json() : Json(cases::sha256_of_file(file));
+  } catch (const InputError&) {
+    digest = nullptr;  // it may be executed but not read
+  }
+  return known[program] = digest;
+}
+
+/// What makes the job what it is, apart from the program.
+Json configuration_of(const Job& job, const std::vector<std::string>& argv) {
+  Json configuration{{"case", job.subject->name},
+                     {"mesher", job.mesher->name},
+                     {"threads", job.threads},
+                     {"parameters", job.parameters},
+                     {"arguments", std::vector<std::string>(argv.begin() + 1, argv.end())}};
+  if (const auto& phantom = job.subject->phantom) {
+    configuration["image"] = {
+        {"phantom", phantom->name},
+        {"size", phantom->size},
+        {"spacing_mm", {phantom->spacing_mm.x, phantom->spacing_mm.y, phantom->spacing_mm.z}},
+        {"seed", phantom->seed}};
+  } else {
+    configuration["image"] = job.subject->image_sha256;
+  }
+  return configuration;
+}
+
+/// The seed that the mesher works with, by its parameter of that name.
+Json seed_of(const Job& job) {
+  const auto given = job.parameters.find("seed");
+  if (given != job.parameters.end()) {
+    return given->second;
+  }
+  for (const baselines::ParameterSpec& spec : job.mesher->parameters) {
+    if (spec.key == "seed") {
+      return spec.default_value;
+    }
+  }
+  return nullptr;
+}
+
+/// Options of `evaluate` that tell it which phantom the image is, so that it knows the true shape.
+std::vector<std::string> phantom_options(const cases::Case& subject) {
+  if (!subject.phantom || subject.derive.any()) {
+    return {};
+  }
+  const cases::Phantom& phantom = *subject.phantom;
+  const Vec3& s = phantom.spacing_mm;
+  const auto joined = [](const nlohmann::json& list) {  // JSON writes as many digits as it takes
+    return list[0].dump() + "," + list[1].dump() + "," + list[2].dump();
+  };
+  return {"--phantom",         phantom.name,
+          "--phantom-size",    joined(phantom.size),
+          "--phantom-spacing", joined(std::vector<double>{s.x, s.y, s.z}),
+          "--phantom-seed",    std::to_string(phantom.seed)};
+}
+
+/// What a mesher calls its version: by its report, or the first line that its version command prints.
+Json version_of(const baselines::Adapter& mesher, const nlohmann::json& report) {
+  if (mesher.version_command.empty()) {
+    return report.contains("versions") ? Json(report["versions"])
+                                       : Json(report.value("version", nlohmann::json()));
+  }
+  constexpr double kTimeoutS = 10;
+  // Programs print their version to either stream; the shell only joins the two, the command is its
+  // arguments.
+  std::vector<std::string> argv{"/bin/sh", "-c", "exec \"$@\" 1>&2", "sh"};
+  argv.insert(argv.end(), mesher.version_command.begin(), mesher.version_command.end());
+  const ChildResult child = run_child({argv, 1, kTimeoutS, 0});
+  const std::string text = printable(child.stderr_tail);
+  return text.empty() ? Json() : Json(text.substr(0, text.find('\n')));
+}
+
+/// The mesh and the evaluation of one job. The mesh stays; the log stays when something went wrong.
+class Children {
+ public:
+  Children(const Bench& bench, const RunOptions& options, const Job& job, const JobFiles& files)
+      : bench_(bench), options_(options), job_(job), files_(files) {}
+
+  /// True when there is a mesh.
+  bool mesh(const fs::path& image, Json& result) const {
+    const std::vector<std::string> argv = job_.mesher->command(
+        bench_.bin_dir, {image, files_.mesh, files_.report, job_.threads, job_.parameters});
+    const ChildResult child = start(argv, job_.threads, binds_threads(options_, job_));
+    const nlohmann::json report = read_json(files_.report);
+    const bool external = job_.mesher->name.rfind("external:", 0) == 0;
+    set_costs(result, child, report, external);
+    result["mesher_report"] = mesher_report(report);
+    result["provenance"]["mesher_version"] = version_of(*job_.mesher, report);
+    if (succeeded(child) && fs::exists(files_.mesh)) {
+      return true;
+    }
+    if (succeeded(child)) {
+      set_status(result, "failed", "the mesher ended with success but wrote no mesh");
+    } else {
+      set_failure(result, child, report, options_);
+    }
+    std::error_code error;
+    fs::remove(files_.mesh, error);
+    return false;
+  }
+
+  /// The evaluation; empty when it did not end well, and then the line says why.
+  nlohmann::json evaluate(const fs::path& image, Json& result) const {
+    std::vector<std::string> argv = bench_.evaluate_command;
+    argv.insert(argv.end(), {files_.mesh, image, "--json", files_.evaluation, "--quiet"});
+    const std::vector<std::string> phantom = phantom_options(*job_.subject);
+    argv.insert(argv.end(), phantom.begin(), phantom.end());
+    const ChildResult child = start(argv, 0, false);
+    nlohmann::json evaluation = read_json(files_.evaluation);
+    std::error_code error;
+    fs::remove(files_.evaluation, error);
+    if (succeeded(child) && !evaluation.empty()) {
+      return evaluation;
+    }
+    set_failure(result, child, {}, options_);
+    result["reason"] = "meshed, but the evaluation did not end: " + result["reason"].get<std::string>();
+    return nlohmann::json::object();
+  }
+
+ private:
+  [[nodiscard]] ChildResult start(const std::vector<std::string>& argv, int threads,
+                                  bool bind_threads) const {
+    ChildResult child =
+        run_child({argv, threads, options_.timeout_s, options_.memory_limit_bytes, bind_threads});
+    if (!succeeded(child)) {
+      write_text_file(files_.log, child.stderr_tail);
+    }
+    return child;
+  }
+
+  const Bench& bench_;
+  const RunOptions& options_;
+  const Job& job_;
+  const JobFiles& files_;
+};
+
+}  // namespace
+
+Json identity_of(const Job& job, const Bench& bench) {
+  Json result = empty_result();
+  result["case"] = job.subject->name;
+  result["mesher"] = job.mesher->name;
+  result["threads"] = job.threads;
+  result["repeat"] = job.repeat;
+  result["parameters"] = job.parameters;
+  const std::vector<std::string> argv =
+      job.mesher->command(bench.bin_dir, {"IMAGE", "MESH", "REPORT", job.threads, job.parameters});
+  Json& origin = result["provenance"];
+  origin["configuration_sha256"] = cases::sha256_of_text(configuration_of(job, argv).dump());
+  origin["program_sha256"] = program_digest(argv.front());
+  origin["evaluator_sha256"] = program_digest(bench.evaluate_command.front());
+  origin["command"] = argv;
+  origin["seed"] = seed_of(job);
+  origin["mesher_description"] = job.mesher->description;
+  origin["mesher_licence"] = job.mesher->licence;
+  origin["mesher_deterministic"] = job.mesher->deterministic;
+  return result;
+}
+
+Json JobRunner::run(const Job& job) {
+  Json result = identity_of(job, bench_);
+  result["provenance"].update(provenance());
+  result["provenance"]["threads_bound"] = binds_threads(options_, job);
+  try {
+    const baselines::Availability availability = job.mesher->availability(bench_.bin_dir);
+    if (!availability.available) {
+      set_status(result, "unavailable", availability.reason);
+      return result;
+    }
+    const cases::ResolvedImage image = bench_.resolve_image(*job.subject);
+    if (!image.skipped_reason.empty()) {
+      set_status(result, "skipped", image.skipped_reason);
+      return result;
+    }
+    result["provenance"]["image_file"] = fs::absolute(image.path).string();
+    result["provenance"]["image_sha256"] =
+        job.subject->image_sha256.empty() ? cases::sha256_of_file(image.path) : job.subject->image_sha256;
+    run_children(job, image.path, result);
+  } catch (const std::exception& error) {
+    set_status(result, "failed", error.what());
+  }
+  return result;
+}
+
+void JobRunner::run_children(const Job& job, const fs::path& image, Json& result) {
+  const std::string stem = file_stem(result);
+  const JobFiles files(options_.out_dir, stem, job.mesher->mesh_extension);
+  files.remove_all();
+  const Children children(bench_, options_, job, files);
+  const double reference_before_s = reference_cpu_seconds(job.threads);
+  const bool meshed = children.mesh(image, result);
+  result["time_s"]["reference_cpu"] = std::min(reference_before_s, reference_cpu_seconds(job.threads));
+  if (!meshed) {
+    return;
+  }
+  result["mesh_file"] = "meshes/" + stem + job.mesher->mesh_extension;
+  result["mesh_sha256"] = cases::sha256_of_file(files.mesh);
+  // The same bytes need no second judgement: repeats and thread counts mostly give the same mesh.
+  const std::string key = result["provenance"]["image_sha256"].get<std::string>() +
+                          result["mesh_sha256"].get<std::string>() + job.mesher->mesh_extension;
+  if (!evaluations_.contains(key)) {
+    const nlohmann::json evaluation = children.evaluate(image, result);
+    if (evaluation.empty()) {
+      return;
+    }
+    evaluations_[key] = evaluation;
+  }
+  merge_evaluation(result, evaluations_[key]);
+  set_status(result, "ok", "");
+}
+
+}  // namespace cbc3d::reports
