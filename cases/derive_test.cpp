@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "cases/manifest.hpp"
-#include "cases/phantoms/shapes.hpp"
 #include "cases/core/sha256.hpp"
 #include "cases/core/testing_folder.hpp"
+#include "cases/manifest.hpp"
+#include "cases/phantoms/shapes.hpp"
 #include "mesher/core/image_io.hpp"
 
 namespace cbc3d::cases {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cases/manifest.hpp"
 #include "cases/core/testing_folder.hpp"
+#include "cases/manifest.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::cases {

@@ -1,9 +1,9 @@
 #include <sstream>
 
+#include "cases/core/sha256.hpp"
 #include "cases/derive.hpp"
 #include "cases/manifest.hpp"
 #include "cases/phantoms/registry.hpp"
-#include "cases/core/sha256.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "cases/manifest.hpp"
-#include "cases/phantoms/registry.hpp"
 #include "cases/core/sha256.hpp"
 #include "cases/core/testing_folder.hpp"
+#include "cases/manifest.hpp"
+#include "cases/phantoms/registry.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 

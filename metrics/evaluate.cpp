@@ -6,8 +6,8 @@
 #include "metrics/element_quality.hpp"
 #include "metrics/faults.hpp"
 #include "metrics/fidelity.hpp"
-#include "metrics/one_look.hpp"
 #include "metrics/self_intersection.hpp"
+#include "metrics/summary.hpp"
 #include "metrics/surface.hpp"
 #include "metrics/topology.hpp"
 
@@ -58,7 +58,7 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const Fidelity near = fidelity(view, image, surface, how, progress);
   result["fidelity"] = to_json(near, how);
   result["faults"] = describe_faults(view, quality, connected, crossing, in_image, image, near.labels);
-  result["one_look"] = one_look({view, image.frame, quality, connected, crossing, near});
+  result["summary"] = summary({view, image.frame, quality, connected, crossing, near});
   if (options.shapes) {
     progress.step("true shape", 0.97);
     result["shape"] = to_json(compare_with_shapes(view, image, surface, options.shapes));

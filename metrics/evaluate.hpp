@@ -26,7 +26,7 @@ struct EvaluateOptions {
 ///   quality   see element_quality.hpp;
 ///   fidelity  see fidelity.hpp;
 ///   topology  see topology.hpp and self_intersection.hpp;
-///   one_look  the few figures to look at first, see one_look.hpp;
+///   summary  the few figures to look at first, see summary.hpp;
 ///   shape     only with EvaluateOptions::shapes: the mesh against them, see shape_comparison.hpp;
 ///   faults    what is wrong with the mesh, a line each, see faults.hpp.
 /// A figure that cannot be had is null, never NaN. The bytes do not depend on the thread count. Throws

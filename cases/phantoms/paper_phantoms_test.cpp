@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
+#include "cases/core/testing_folder.hpp"
 #include "cases/manifest.hpp"
 #include "cases/phantoms/noise.hpp"
 #include "cases/phantoms/random.hpp"
 #include "cases/phantoms/registry.hpp"
-#include "cases/core/testing_folder.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/runtime.hpp"

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "cases/phantoms/registry.hpp"
 #include "cases/core/sha256.hpp"
+#include "cases/phantoms/registry.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"

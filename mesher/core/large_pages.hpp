@@ -9,14 +9,14 @@
 #include <cstdlib>
 #include <new>
 
-#include "mesher/core/unset_vector.hpp"
+#include "mesher/core/uninitialized_vector.hpp"
 
 namespace cbc3d {
 
 /// An allocator for std::vector; what is smaller than a few pages is allocated as usual. Who fills
 /// a vector in parallel is the first to touch its pages, in parallel.
 template <typename T>
-struct LargePages : LeavesUnset {
+struct LargePages : LeavesUninitialized {
   using value_type = T;
   LargePages() = default;
   template <typename U>

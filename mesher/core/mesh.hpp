@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
-#include "mesher/core/unset_vector.hpp"
+#include "mesher/core/uninitialized_vector.hpp"
 
 namespace cbc3d {
 
@@ -15,12 +15,12 @@ using VertexId = std::uint32_t;
 inline constexpr VertexId kNoVertex = 0xFFFFFFFFU;
 
 /// The nodes of tets, of which nothing else is known.
-using TetNodes = UnsetVector<std::array<VertexId, 4>>;
+using TetNodes = UninitializedVector<std::array<VertexId, 4>>;
 
 /// Cells of one kind: node lists and, in parallel, their labels.
 template <int Nodes>
 struct CellBlock {
-  UnsetVector<std::array<VertexId, Nodes>> nodes;
+  UninitializedVector<std::array<VertexId, Nodes>> nodes;
   std::vector<Label> labels;
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }

@@ -13,9 +13,9 @@
 #include "mesher/improve/local/mesh_patches.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
-#include "mesher/improve/surface/surface_crossings.hpp"
-#include "mesher/improve/surface/surface_mending.hpp"
-#include "mesher/improve/surface/volume_balance.hpp"
+#include "mesher/improve/surface/self_intersections.hpp"
+#include "mesher/improve/surface/surface_repair.hpp"
+#include "mesher/improve/surface/volume_correction.hpp"
 
 namespace cbc3d {
 namespace {
@@ -276,7 +276,7 @@ class Improver {
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
       relax_vertices(patch, relax_);
-      pull_strays(patch, relax_);
+      project_far_vertices(patch, relax_);
     });
   }
 
@@ -326,7 +326,7 @@ class Improver {
     const bool graded = options_.gradation >= 0;
     CollapseOptions collapse{sine_squared_of_deg(collapse_deg()), kLongestGrowth,
                              target_.longest_mm.empty() ? nullptr : &target_.longest_mm, false, graded};
-    collapse.place_anew = true;
+    collapse.optimize_position = true;
     collapse.volume_share = kVolumeShare;
     if (graded) {
       sizes_ = graded_sizes(mesh_, options_.gradation);
@@ -340,7 +340,7 @@ class Improver {
       flatten_interfaces(patch, goal_);
       collapse_edges(patch, collapse);
       relax_vertices(patch, relax_);
-      pull_strays(patch, relax_);
+      project_far_vertices(patch, relax_);
       remove_edges(patch, sine_squared_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
       climb_vertices(patch, goal_);
@@ -391,7 +391,7 @@ class Improver {
   /// what still crosses in the end may cost a little more distance, and what then is left is mended place by
   /// place.
   void finish_surfaces() {
-    with_points(hosted_.reach_mm, [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
+    with_points(hosted_.reach_mm, [this](CoveredSamples& hosted) { separate_and_relabel(hosted); });
     for (int i = 0;
          report_.tets_relabelled > 0 && i < kLastRepairs && repair("repair", goal_, kFarRepair + i) > 0;
          ++i) {
@@ -409,11 +409,11 @@ class Improver {
   void balance_and_separate() {
     if (!target_.volumes_mm3.empty()) {
       with_points(hosted_.reach_mm,
-                  [this](HostedPoints& hosted) { timed("volumes", [&] { balance(hosted); }); });
+                  [this](CoveredSamples& hosted) { timed("volumes", [&] { balance(hosted); }); });
     }
     const double farthest_mm = std::max(hosted_.reach_mm, kFarthestReach * target_.scale_mm);
     with_points(target_.keep_distances ? hosted_.reach_mm : farthest_mm,
-                [this](HostedPoints& hosted) { separate_and_relabel(hosted); });
+                [this](CoveredSamples& hosted) { separate_and_relabel(hosted); });
   }
 
   /// True when a point may have no surface vertex of its own material within the limit.
@@ -447,16 +447,16 @@ class Improver {
 
   template <typename Step>
   void with_points(double reach_mm, const Step& step) {
-    HostedPoints hosted(hosted_.points, hosted_.hosts, mesh_.points.size(), reach_mm);
+    CoveredSamples hosted(hosted_.points, hosted_.hosts, mesh_.points.size(), reach_mm);
     step(hosted);
   }
 
   /// What crosses is drawn apart; what then still does, and what stands on a wrong surface, changes hands.
-  void separate_and_relabel(HostedPoints& hosted) {
+  void separate_and_relabel(CoveredSamples& hosted) {
     timed("crossings", [&] { separate_and_relabel_in_turns(hosted); });
   }
 
-  void separate_and_relabel_in_turns(HostedPoints& hosted) {
+  void separate_and_relabel_in_turns(CoveredSamples& hosted) {
     const CrossingOptions crossing{0.08 * target_.scale_mm, goal_, 12};
     const RelabelOptions relabel{hosted_.reach_mm, target_.largest_change_mm3, goal_, 6};
     for (int turn = 0; turn < 3; ++turn) {
@@ -475,7 +475,7 @@ class Improver {
     report_.crossings_left = separate_crossings(mesh_, hosted, crossing);
   }
 
-  void balance(const HostedPoints& hosted) {
+  void balance(const CoveredSamples& hosted) {
     BalanceOptions options;
     options.wanted_mm3 = target_.volumes_mm3;
     options.label_of = target_.places.label_of;

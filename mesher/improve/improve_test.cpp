@@ -191,7 +191,7 @@ TEST(ImproveOperations, LeaveVolumesAloneWhereTheBoundaryIsLocked) {
     done += relax_vertices(patch, kRelax) + remove_edges(patch, kGood) + climb_vertices(patch, kGood) +
             collapse_edges(patch, {0.05, 2.5, nullptr, false});
     EXPECT_EQ(flatten_interfaces(patch, 0), 0U);
-    EXPECT_EQ(pull_strays(patch, kRelax), 0U);
+    EXPECT_EQ(project_far_vertices(patch, kRelax), 0U);
   });
   EXPECT_GT(done, 30U);
   EXPECT_NE(trial.mesh.tets.size(), tets);
@@ -241,7 +241,7 @@ TEST(ImproveOperations, CollapsesStayWithinTheLongestEdge) {
 TEST(ImproveOperations, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
   for (const LabelImage& image : {touching_balls(), cavity_and_torus()}) {
     std::array<std::size_t, 2> left{};
-    for (const bool place_anew : {false, true}) {
+    for (const bool optimize_position : {false, true}) {
       Trial trial(image);
       trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
       trial.apply([](Patch& p) { remove_edges(p, kGood); });
@@ -249,7 +249,7 @@ TEST(ImproveOperations, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
       const std::vector<long> chi = trial.characteristics();
       const double worst = trial.worst_sine_squared();
       CollapseOptions options{kGoal, 5, nullptr, false};
-      options.place_anew = place_anew;
+      options.optimize_position = optimize_position;
       std::size_t removed = 1;
       for (int pass = 0; removed > 0; ++pass) {
         ASSERT_LT(pass, 40);  // they end
@@ -259,7 +259,7 @@ TEST(ImproveOperations, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
       expect_sound(trial, hosts);
       EXPECT_EQ(trial.characteristics(), chi);
       EXPECT_GE(trial.worst_sine_squared(), std::min(worst, kGoal) * (1 - 1e-9));
-      left[place_anew ? 1 : 0] = trial.mesh.tets.size();
+      left[optimize_position ? 1 : 0] = trial.mesh.tets.size();
     }
     EXPECT_LT(left[1], left[0] * 9 / 10);
   }
@@ -276,7 +276,7 @@ TEST(ImproveOperations, CollapsesLeaveThinPartsTheirVolume) {
     trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
     const double before = trial.volumes()[1];
     CollapseOptions options{0.02, 10, nullptr, false};
-    options.place_anew = true;
+    options.optimize_position = true;
     options.volume_share = guarded ? 0 : 1;
     std::size_t removed = 0;
     trial.apply([&](Patch& p) { removed += collapse_edges(p, options); });
@@ -306,7 +306,7 @@ TEST(ImproveOperations, PullStraysBringsVerticesBackToTheBoundary) {
   trial.apply([&](Patch& patch) {
     const std::size_t before = strays(patch);
     EXPECT_GT(before, 50U);
-    EXPECT_GT(pull_strays(patch, kRelax), 0U);
+    EXPECT_GT(project_far_vertices(patch, kRelax), 0U);
     EXPECT_LT(strays(patch), before / 10);
   });
 }

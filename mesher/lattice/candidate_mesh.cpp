@@ -10,7 +10,7 @@ namespace cbc3d {
 namespace {
 
 /// The tets that are kept, at their new places.
-LatticeTets keep_tets(const LatticeTets& old, const UnsetVector<TetId>& number, std::size_t count) {
+LatticeTets keep_tets(const LatticeTets& old, const UninitializedVector<TetId>& number, std::size_t count) {
   LatticeTets tets;
   tets.resize(count);
 #pragma omp parallel for schedule(static)
@@ -25,7 +25,8 @@ LatticeTets keep_tets(const LatticeTets& old, const UnsetVector<TetId>& number, 
 }
 
 /// Neighbours of the tets that are kept, unknown where the neighbour is gone.
-TetNeighbours keep_neighbours(const TetNeighbours& old, const UnsetVector<TetId>& number, std::size_t count) {
+TetNeighbours keep_neighbours(const TetNeighbours& old, const UninitializedVector<TetId>& number,
+                              std::size_t count) {
   TetNeighbours neighbours(count);
 #pragma omp parallel for schedule(static)
   for (std::size_t t = 0; t < count; ++t) {
@@ -47,7 +48,7 @@ TetNeighbours keep_neighbours(const TetNeighbours& old, const UnsetVector<TetId>
 
 /// Where the numbers of each block of kRedsOfBlock red tets begin, and at last how many there are.
 std::vector<TetId> LatticeFollower::first_of_blocks() const {
-  const UnsetVector<RedTet>& reds = lattice_.reds;
+  const UninitializedVector<RedTet>& reds = lattice_.reds;
   std::vector<TetId> first((reds.size() + kRedsOfBlock - 1) / kRedsOfBlock + 1, 0);
 #pragma omp parallel for schedule(static) if (first.size() > 2)
   for (std::size_t b = 1; b < first.size(); ++b) {
@@ -61,10 +62,10 @@ std::vector<TetId> LatticeFollower::first_of_blocks() const {
   return first;
 }
 
-UnsetVector<TetId> LatticeFollower::renumber() {
-  UnsetVector<TetId> number(tet_count());
+UninitializedVector<TetId> LatticeFollower::renumber() {
+  UninitializedVector<TetId> number(tet_count());
   const std::vector<TetId> first = first_of_blocks();
-  const UnsetVector<TetId> before = std::exchange(first_, {});
+  const UninitializedVector<TetId> before = std::exchange(first_, {});
   const std::size_t count = lattice_.reds.size(), known = shapes_.size();
   first_.resize(count + 1);
   shapes_.resize(count);
@@ -92,7 +93,7 @@ UnsetVector<TetId> LatticeFollower::renumber() {
   return number;
 }
 
-void LatticeFollower::rebuild(CandidateMesh& mesh, const UnsetVector<TetId>& number) const {
+void LatticeFollower::rebuild(CandidateMesh& mesh, const UninitializedVector<TetId>& number) const {
   mesh.tets = keep_tets(mesh.tets, number, tet_count());
 #pragma omp parallel for schedule(dynamic, 4096)
   for (std::size_t r = 0; r < is_new_.size(); ++r) {

@@ -32,11 +32,11 @@ class LatticeFollower {
 
   /// Compares the lattice with what it was at the last call; returns the new number of every tet there was,
   /// kNoTet for those that are gone because their red tet was split or its green pieces are others.
-  UnsetVector<TetId> renumber();
+  UninitializedVector<TetId> renumber();
 
   /// Brings nodes and neighbours up to date, for what renumber() returned. Parallel. What is kept is not
   /// computed again. The materials are the caller's.
-  void rebuild(CandidateMesh& mesh, const UnsetVector<TetId>& number) const;
+  void rebuild(CandidateMesh& mesh, const UninitializedVector<TetId>& number) const;
 
   /// The tets of red tet r are first(r) ... first(r + 1) - 1.
   [[nodiscard]] TetId first(std::size_t r) const { return first_[r]; }
@@ -54,14 +54,15 @@ class LatticeFollower {
   [[nodiscard]] std::vector<TetId> first_of_blocks() const;
 
   const Lattice& lattice_;
-  UnsetVector<TetId> first_;
-  UnsetVector<Shape> shapes_;
+  UninitializedVector<TetId> first_;
+  UninitializedVector<Shape> shapes_;
   std::vector<std::uint8_t> is_new_;  // a red tet whose tets are to be written
 };
 
 /// Values of the tets under their new numbers; `otherwise` for the tets that are new.
 template <typename Values, typename T = typename Values::value_type>
-Values renumbered(const Values& values, const UnsetVector<TetId>& number, std::size_t count, T otherwise) {
+Values renumbered(const Values& values, const UninitializedVector<TetId>& number, std::size_t count,
+                  T otherwise) {
   Values result(count);
 #pragma omp parallel for schedule(static)
   for (std::size_t t = 0; t < count; ++t) {

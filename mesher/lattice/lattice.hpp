@@ -94,7 +94,7 @@ struct Lattice {
   /// table.
   std::vector<std::int8_t> split_below;
   VertexTable table;
-  UnsetVector<RedTet> reds;
+  UninitializedVector<RedTet> reds;
 
   VertexId vertex_at(const LatticePoint& point);
 };
@@ -106,9 +106,9 @@ void append_local_points(const Lattice& lattice, std::vector<Vec3>& points);
 
 /// A conforming mesh of the lattice: its red leaves and the green pieces of those with split edges.
 struct LatticeTets {
-  TetNodes nodes;                     ///< positively oriented
-  UnsetVector<std::uint32_t> parent;  ///< index into Lattice::reds
-  UnsetVector<std::uint8_t> green;    ///< 1 for a green piece
+  TetNodes nodes;                             ///< positively oriented
+  UninitializedVector<std::uint32_t> parent;  ///< index into Lattice::reds
+  UninitializedVector<std::uint8_t> green;    ///< 1 for a green piece
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }
   /// New tets have no value.

@@ -7,9 +7,9 @@
 
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/candidate_mesh.hpp"
-#include "mesher/lattice/testing_lattice_checks.hpp"
 #include "mesher/lattice/lattice_places.hpp"
 #include "mesher/lattice/red_green.hpp"
+#include "mesher/lattice/testing_lattice_checks.hpp"
 #include "mesher/lattice/voxel_raster.hpp"
 #include "mesher/testing/test_images.hpp"
 #include "mesher/topology/tet_adjacency.hpp"
@@ -188,7 +188,7 @@ TEST(LatticeFollower, AMeshThatFollowsIsTheMeshMadeAnew) {
   CandidateMesh mesh;
   TetNodes nodes;  // of the tets, carried along
   for (const std::uint32_t one_in : {20U, 500U, 5000U, 1000000000U}) {
-    const UnsetVector<TetId> number = follower.renumber();
+    const UninitializedVector<TetId> number = follower.renumber();
     follower.rebuild(mesh, number);
     const LatticeTets tets = extract_tets(lattice);
     EXPECT_EQ(mesh.tets.nodes, tets.nodes);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesher/lattice/lattice.hpp"
-#include "mesher/lattice/reds_of_vertices.hpp"
+#include "mesher/lattice/vertex_to_red_tets.hpp"
 
 namespace cbc3d {
 
@@ -53,7 +53,7 @@ class RedGreenRefiner {
   Lattice& lattice_;
   std::vector<std::uint32_t> last_touched_;       // per vertex
   std::vector<VertexId> touched_, just_touched_;  // by this sweep and by the last one
-  RedsOfVertices near_;
+  VertexToRedTets near_;
   int small_sweeps_ = 0;  // since near_ was dropped
   std::uint32_t sweep_ = 0;
   std::size_t split_count_ = 0;

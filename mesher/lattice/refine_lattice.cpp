@@ -72,7 +72,7 @@ class Refiner {
   /// Brings the mesh up to the lattice, and what is known of its tets to their new numbers.
   void follow_lattice() {
     CandidateMesh& mesh = result_.mesh;
-    const UnsetVector<TetId> number = follower_.renumber();
+    const UninitializedVector<TetId> number = follower_.renumber();
     forget_removed(number);
     follower_.rebuild(mesh, number);
     judged_ = renumbered(judged_, number, mesh.tets.size(), kNotJudged);
@@ -85,7 +85,7 @@ class Refiner {
   }
 
   /// Takes the tets that are gone out of the account.
-  void forget_removed(const UnsetVector<TetId>& number) {
+  void forget_removed(const UninitializedVector<TetId>& number) {
     touched_.assign(points_.size(), 0);
     tally(number.size(), [&](std::size_t t, FidelityAccount::Changes& changes) {
       if (number[t] == kNoTet) {
@@ -518,12 +518,12 @@ class Refiner {
   LatticeFollower follower_;
   std::vector<std::uint32_t> rank_;
   static constexpr std::int32_t kNotJudged = -1;
-  UnsetVector<std::int32_t> judged_;          // the material each tet had when it was last judged
-  UnsetVector<ForeignMaterials> foreign_;     // what was in each tet then
-  std::vector<std::uint8_t> touched_;         // vertices of tets that changed since
-  std::vector<std::uint64_t> stray_verdict_;  // of vertices, see is_stray
+  UninitializedVector<std::int32_t> judged_;       // the material each tet had when it was last judged
+  UninitializedVector<ForeignMaterials> foreign_;  // what was in each tet then
+  std::vector<std::uint8_t> touched_;              // vertices of tets that changed since
+  std::vector<std::uint64_t> stray_verdict_;       // of vertices, see is_stray
   std::vector<Vec3> points_;
-  UnsetVector<MaterialId> centroid_material_;
+  UninitializedVector<MaterialId> centroid_material_;
   std::vector<std::uint8_t> marked_;
   int topology_rounds_ = 0;
   int repairs_ = 0;

@@ -10,9 +10,9 @@
 
 #include "mesher/core/error.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
-#include "mesher/lattice/testing_lattice_checks.hpp"
 #include "mesher/lattice/red_green.hpp"
 #include "mesher/lattice/select_candidate.hpp"
+#include "mesher/lattice/testing_lattice_checks.hpp"
 #include "mesher/testing/test_images.hpp"
 #include "mesher/testing/thread_counts.hpp"
 #include "mesher/topology/tet_adjacency.hpp"

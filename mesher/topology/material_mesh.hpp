@@ -18,7 +18,7 @@ using CellId = std::uint32_t;
 /// Cells of one kind with their materials; node orders are those of Mesh.
 template <std::size_t Nodes>
 struct MaterialCells {
-  UnsetVector<std::array<VertexId, Nodes>> nodes;
+  UninitializedVector<std::array<VertexId, Nodes>> nodes;
   std::vector<MaterialId> materials;
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/core/mesh.hpp"
-#include "mesher/core/unset_vector.hpp"
+#include "mesher/core/uninitialized_vector.hpp"
 
 namespace cbc3d {
 
@@ -15,7 +15,7 @@ inline constexpr TetId kNoTet = 0xFFFFFFFFU;
 inline constexpr TetId kUnknownTet = 0xFFFFFFFEU;  ///< find_unknown_neighbours is to find it
 
 /// Across the face opposite to each node of each tet.
-using TetNeighbours = UnsetVector<std::array<TetId, 4>>;
+using TetNeighbours = UninitializedVector<std::array<TetId, 4>>;
 
 /// For each tet and node n: the tet across the face opposite to node n, kNoTet on the outside.
 /// Linear in the tets, parallel. Throws JobError when a face has more than two tets (the mesh is not

@@ -110,14 +110,14 @@ Chart comparison(const std::vector<Json>& results, const Columns& columns,
 /// A column's name and, as a distance says nothing of them, how many labels its mesh lacks.
 std::string name_with_missing(const std::string& column, const std::vector<const Json*>& runs) {
   const Json* run = first_good(runs);
-  const Json missing = run == nullptr ? Json() : figure(*run, {"one_look", "missing_labels"});
+  const Json missing = run == nullptr ? Json() : figure(*run, {"summary", "missing_labels"});
   return missing.is_array() && !missing.empty()
              ? column + " (" + std::to_string(missing.size()) +
                    (missing.size() == 1 ? " label missing)" : " labels missing)")
              : column;
 }
 
-/// Every mesher of a case in the plane of distance and another figure of one_look, times `unit`.
+/// Every mesher of a case in the plane of distance and another figure of summary, times `unit`.
 Scatter trade_off(const std::string& case_name, const Columns& columns, const std::string& key, double unit,
                   bool logarithmic_y) {
   constexpr double kLimitDiagonals = 1.1;
@@ -128,8 +128,8 @@ Scatter trade_off(const std::string& case_name, const Columns& columns, const st
   scatter.x_limit = kLimitDiagonals;
   for (const std::string& column : columns.names()) {
     const std::vector<const Json*> runs = columns.runs(case_name, column);
-    const double x = median_of(runs, {"one_look", "hausdorff_diagonals"});
-    const double y = unit * median_of(runs, {"one_look", key});
+    const double x = median_of(runs, {"summary", "hausdorff_diagonals"});
+    const double y = unit * median_of(runs, {"summary", key});
     if (x > 0 && (y > 0 || (!logarithmic_y && y == 0))) {
       scatter.series.push_back({name_with_missing(column, runs), {{x, y}}});
     }

@@ -97,7 +97,7 @@ int evaluate(const EvaluateCommandOptions& options) {
     write_json(options.json, evaluation);
   }
   if (!options.quiet) {
-    for (const char* section : {"counts", "quality", "fidelity", "topology", "one_look", "shape"}) {
+    for (const char* section : {"counts", "quality", "fidelity", "topology", "summary", "shape"}) {
       if (evaluation.contains(section)) {
         print_section(evaluation, section);
       }

@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "reports/charts/pictures.hpp"
-#include "reports/tables/setting_tables.hpp"
 #include "reports/sweep/sweep.hpp"
+#include "reports/tables/setting_tables.hpp"
 #include "reports/tables/tables.hpp"
 
 namespace cbc3d::reports {

@@ -159,13 +159,13 @@ TEST(Tables, AreWrittenInTheWantedForms) {
 
 TEST(Tables, TargetsSayWhatIsMissedAndWhere) {
   Json good = line("nidus", "cbc3d", 100), bad = line("nidus", "cgal", 100);
-  good["one_look"] = {{"min_dihedral_deg", 21.5},        {"min_dihedral_label", 4},
-                      {"image_to_mesh_diagonals", 1.1},  {"image_to_mesh_label", 4},
-                      {"missing_labels", Json::array()}, {"self_intersections", 0}};
-  bad["one_look"] = {{"min_dihedral_deg", 9.0},        {"min_dihedral_label", 7},
-                     {"volume_error_percent", -1.5},   {"volume_error_label", 2},
-                     {"missing_labels", {5, 6}},       {"self_intersections", 3},
-                     {"self_intersection_labels", {7}}};
+  good["summary"] = {{"min_dihedral_deg", 21.5},        {"min_dihedral_label", 4},
+                     {"image_to_mesh_diagonals", 1.1},  {"image_to_mesh_label", 4},
+                     {"missing_labels", Json::array()}, {"self_intersections", 0}};
+  bad["summary"] = {{"min_dihedral_deg", 9.0},        {"min_dihedral_label", 7},
+                    {"volume_error_percent", -1.5},   {"volume_error_label", 2},
+                    {"missing_labels", {5, 6}},       {"self_intersections", 3},
+                    {"self_intersection_labels", {7}}};
   const auto tables = build_tables({good, bad, failure("nidus", "tetgen", "oops")}, {});
   const Table& targets = table(tables, "targets");
   const auto text = [&](const std::string& figure, std::size_t column) {
@@ -203,9 +203,9 @@ TEST(Tables, SmoothnessHasTheVoxelSurfaceBesideTheMeshers) {
 
 TEST(Figures, EveryCaseHasAllMeshersInThePlaneOfDistanceAndAngle) {
   Json a = line("nidus", "cbc3d", 100), b = line("nidus", "cgal", 100);
-  a["one_look"] = {
+  a["summary"] = {
       {"hausdorff_diagonals", 1.0}, {"min_dihedral_deg", 21.0}, {"elements", 25000}, {"missing_labels", {3}}};
-  b["one_look"] = {{"hausdorff_diagonals", 5.0}, {"min_dihedral_deg", 12.0}, {"elements", 47000}};
+  b["summary"] = {{"hausdorff_diagonals", 5.0}, {"min_dihedral_deg", 12.0}, {"elements", 47000}};
   std::vector<std::string> names;
   for (const Figure& figure : result_figures({a, b, failure("nidus", "tetgen", "oops")})) {
     if (figure.name.rfind("distance-", 0) == 0) {

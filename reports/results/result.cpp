@@ -48,7 +48,7 @@ Json empty_result() {
                               "mean_distance_mm", "hd95_mm", "dice_min", "missing_labels", "per_label"});
   result["topology"] = nulls({"conforming", "non_manifold_edges", "non_manifold_vertices",
                               "self_intersections", "components", "per_label"});
-  result["one_look"] =
+  result["summary"] =
       nulls({"elements", "min_dihedral_deg", "hausdorff_diagonals", "union_hausdorff_diagonals",
              "volume_error_percent", "missing_labels", "self_intersections"});
   result["faults"] = nullptr;
@@ -62,7 +62,7 @@ Json empty_result() {
 }
 
 void merge_evaluation(Json& result, const nlohmann::json& evaluation) {
-  for (const char* section : {"counts", "quality", "fidelity", "topology", "one_look", "shape", "image"}) {
+  for (const char* section : {"counts", "quality", "fidelity", "topology", "summary", "shape", "image"}) {
     if (!evaluation.contains(section) || !evaluation[section].is_object()) {
       continue;
     }

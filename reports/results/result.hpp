@@ -18,7 +18,7 @@ inline constexpr const char* kStatuses[] = {"ok",      "failed",     "crashed", 
 /// A result line with every key there and every figure null.
 Json empty_result();
 
-/// Puts the keys counts, quality, fidelity, topology, one_look, shape, image, faults and evaluation_peak_mb
+/// Puts the keys counts, quality, fidelity, topology, summary, shape, image, faults and evaluation_peak_mb
 /// of an evaluation into a result line; keys that the evaluation lacks stay null, and shape is absent.
 void merge_evaluation(Json& result, const nlohmann::json& evaluation);
 

@@ -6,10 +6,10 @@
 #include <thread>
 
 #include "mesher/core/error.hpp"
+#include "reports/results/format_number.hpp"
 #include "reports/run/folder_lock.hpp"
 #include "reports/run/job_run.hpp"
 #include "reports/run/resume.hpp"
-#include "reports/results/format_number.hpp"
 
 namespace cbc3d::reports {
 namespace {

@@ -15,8 +15,8 @@ enum class Limit { none, at_least, at_most };
 struct Target {
   const char* name;  ///< without the limit
   int decimals;
-  const char* key;    ///< in one_look
-  const char* where;  ///< key in one_look of the worst label or of the list of labels; nullptr: none
+  const char* key;    ///< in summary
+  const char* where;  ///< key in summary of the worst label or of the list of labels; nullptr: none
   Limit limit;
   double value;  ///< compared with the figure's magnitude
 };
@@ -45,10 +45,10 @@ const std::vector<Target>& targets() {
   return list;
 }
 
-/// The number under a key of one_look, or the length of the list there.
+/// The number under a key of summary, or the length of the list there.
 FigureOf look_at(const char* key) {
   return [key](const Json& result) -> std::optional<double> {
-    const Json value = figure(result, {"one_look", key});
+    const Json value = figure(result, {"summary", key});
     return value.is_array()    ? std::optional(static_cast<double>(value.size()))
            : value.is_number() ? std::optional(value.get<double>())
                                : std::nullopt;
@@ -92,7 +92,7 @@ std::string where_of(const std::vector<const Json*>& runs, const Target& target)
       std::find_if(runs.begin(), runs.end(), [](const Json* run) { return text_of(*run, "status") == "ok"; });
   return target.where == nullptr || good == runs.end()
              ? ""
-             : labels_text(figure(**good, {"one_look", target.where}));
+             : labels_text(figure(**good, {"summary", target.where}));
 }
 
 Cell target_cell(const std::vector<const Json*>& runs, const Target& target) {

@@ -8,7 +8,7 @@
 
 namespace cbc3d::reports {
 
-/// For every case the figures of one_look (metrics/one_look.hpp) with the limits they should keep: smallest
+/// For every case the figures of summary (metrics/summary.hpp) with the limits they should keep: smallest
 /// dihedral angle 20 degrees, the paper's distance both ways 1.1 voxel diagonals for each label and for all
 /// labels as one, volume error of labels above 500 voxels 1 %, no label above 50 voxels missing, nothing
 /// non-manifold, inverted or intersecting itself. A cell beyond its limit is marked, with the worst label or

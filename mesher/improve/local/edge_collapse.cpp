@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/improve/local/local_volume_change.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
-#include "mesher/improve/local/volume_shares.hpp"
 
 namespace cbc3d {
 namespace {
@@ -55,7 +55,7 @@ class EdgeCollapser {
     }
     mesh_.neighbours(u, patch_.star, patch_.around);
     set_limits(u);
-    return try_collapses(u) || (options_.place_anew && try_merges(u));
+    return try_collapses(u) || (options_.optimize_position && try_merges(u));
   }
 
  private:
@@ -559,7 +559,7 @@ class EdgeCollapser {
   std::vector<std::pair<double, VertexId>> targets_;
   std::vector<VertexId> on_edge_, hosts_;
   std::vector<std::array<MaterialId, 2>> pairs_;
-  VolumeShares shares_;
+  LocalVolumeChange shares_;
   std::array<VertexId, 2> merging_{};
 };
 

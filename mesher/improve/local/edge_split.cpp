@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/improve/local/star_height.hpp"
+#include "mesher/improve/local/star_quality.hpp"
 
 namespace cbc3d {
 namespace {

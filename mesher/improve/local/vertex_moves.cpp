@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/improve/local/star_height.hpp"
+#include "mesher/improve/local/star_quality.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
 
 namespace cbc3d {
@@ -319,7 +319,7 @@ std::size_t relax_vertices(Patch& patch, const RelaxOptions& options) {
   return moved;
 }
 
-std::size_t pull_strays(Patch& patch, const RelaxOptions& options) {
+std::size_t project_far_vertices(Patch& patch, const RelaxOptions& options) {
   VertexMover mover(patch);
   const double near_mm = options.smoothness > 0
                              ? std::max(patch.guards.deviation_mm, options.smoothness_cap_mm)

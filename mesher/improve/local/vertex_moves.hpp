@@ -28,7 +28,7 @@ std::size_t relax_vertices(Patch& patch, const RelaxOptions& options);
 
 /// Relaxes the vertices that are farther from their boundaries than the patch's guard allows, and their
 /// neighbours, a few times each. Returns the number of moves.
-std::size_t pull_strays(Patch& patch, const RelaxOptions& options);
+std::size_t project_far_vertices(Patch& patch, const RelaxOptions& options);
 
 /// Moves the vertices of tets whose worst angle is below the goal, wherever that lifts the worst angle of the
 /// vertex's star. Returns the number of vertices moved.

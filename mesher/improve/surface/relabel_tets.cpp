@@ -4,7 +4,7 @@
 
 #include "mesher/improve/local/mesh_star.hpp"
 #include "mesher/improve/surface/labelled_complex.hpp"
-#include "mesher/improve/surface/surface_crossings.hpp"
+#include "mesher/improve/surface/self_intersections.hpp"
 
 namespace cbc3d {
 namespace {
@@ -13,7 +13,7 @@ using Facet = std::array<VertexId, 3>;
 
 class Relabeller {
  public:
-  Relabeller(MaterialMesh& mesh, HostedPoints& hosted, const ImagePlaces& places,
+  Relabeller(MaterialMesh& mesh, CoveredSamples& hosted, const ImagePlaces& places,
              const RelabelOptions& options)
       : mesh_(mesh), complex_(mesh, places.label_of), hosted_(hosted), places_(places), options_(options) {}
 
@@ -307,7 +307,7 @@ class Relabeller {
   [[nodiscard]] bool keeps_hosts() {
     new_hosts_.clear();
     for (const VertexId v : touched_) {
-      for (std::uint32_t p = hosted_.first_of(v); p != HostedPoints::kNone; p = hosted_.next(p)) {
+      for (std::uint32_t p = hosted_.first_of(v); p != CoveredSamples::kNone; p = hosted_.next(p)) {
         if (hosted_.point(p).is_on(complex_.set(v))) {
           continue;
         }
@@ -343,7 +343,7 @@ class Relabeller {
 
   MaterialMesh& mesh_;
   LabelledComplex complex_;
-  HostedPoints& hosted_;
+  CoveredSamples& hosted_;
   const ImagePlaces& places_;
   const RelabelOptions& options_;
   RelabelReport report_;
@@ -355,7 +355,7 @@ class Relabeller {
 
 }  // namespace
 
-RelabelReport relabel_misplaced_tets(MaterialMesh& mesh, HostedPoints& hosted, const ImagePlaces& places,
+RelabelReport relabel_misplaced_tets(MaterialMesh& mesh, CoveredSamples& hosted, const ImagePlaces& places,
                                      const RelabelOptions& options) {
   const bool meshes_background =
       std::find(mesh.materials.begin(), mesh.materials.end(), kBackground) != mesh.materials.end();

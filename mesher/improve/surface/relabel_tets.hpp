@@ -10,7 +10,7 @@
 #include <functional>
 #include <optional>
 
-#include "mesher/improve/surface/hosted_points.hpp"
+#include "mesher/improve/surface/covered_samples.hpp"
 #include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d {
@@ -47,7 +47,7 @@ struct RelabelReport {
 
 /// Relabels tets of `mesh`; those that become background are taken out. Vertices keep their numbers.
 /// Deterministic.
-RelabelReport relabel_misplaced_tets(MaterialMesh& mesh, HostedPoints& hosted, const ImagePlaces& places,
+RelabelReport relabel_misplaced_tets(MaterialMesh& mesh, CoveredSamples& hosted, const ImagePlaces& places,
                                      const RelabelOptions& options);
 
 }  // namespace cbc3d

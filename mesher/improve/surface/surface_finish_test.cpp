@@ -6,10 +6,10 @@
 #include <random>
 
 #include "mesher/improve/local/tet_shape.hpp"
-#include "mesher/improve/surface/testing_layered_mesh.hpp"
 #include "mesher/improve/surface/relabel_tets.hpp"
-#include "mesher/improve/surface/surface_crossings.hpp"
-#include "mesher/improve/surface/volume_balance.hpp"
+#include "mesher/improve/surface/self_intersections.hpp"
+#include "mesher/improve/surface/testing_layered_mesh.hpp"
+#include "mesher/improve/surface/volume_correction.hpp"
 #include "mesher/testing/test_images.hpp"
 
 namespace cbc3d {
@@ -57,7 +57,7 @@ TEST(RelabelTets, SpikesGoBackToWhatTheImageHasThere) {
   ASSERT_GE(spikes.size(), 2U);
   ASSERT_EQ(faults(mesh), 0U);
   std::vector<VertexId> hosts;
-  HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
+  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
   const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), short_steps());
   EXPECT_EQ(report.strays, spikes.size());
   EXPECT_EQ(report.tets_relabelled, spikes.size());
@@ -76,7 +76,7 @@ TEST(RelabelTets, ASpikeThatABoundaryVoxelNeedsStays) {
   const std::vector<InterfacePoint> points = {
       {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, 1, 2}};
   std::vector<VertexId> hosts = {tip};
-  HostedPoints hosted(points, hosts, mesh.points.size(), 0.5);
+  CoveredSamples hosted(points, hosts, mesh.points.size(), 0.5);
   const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), short_steps());
   EXPECT_EQ(mesh.materials[spikes[0]], 1);
   EXPECT_EQ(report.tets_relabelled, spikes.size() - 1);
@@ -89,7 +89,7 @@ TEST(RelabelTets, AStepMendsAVertexThatIsHardlyTooFar) {
     if (mesh.points[v].z == 2) mesh.points[v].z += v % 7 == 0 ? 0.12 : 0.05;
   }
   std::vector<VertexId> hosts;
-  HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
+  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
   const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.1), {});
   EXPECT_GT(report.strays, 0U);
   EXPECT_EQ(report.vertices_moved, report.strays);
@@ -117,7 +117,7 @@ TEST(RelabelTets, APinchedEdgeIsMended) {
   }
   ASSERT_TRUE(found);
   std::vector<VertexId> hosts;
-  HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
+  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
   const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(4, 2, 10), {});
   EXPECT_GT(report.pinches, 0U);
   EXPECT_GT(report.tets_relabelled, 0U);
@@ -129,7 +129,7 @@ TEST(RelabelTets, ATipAcrossAGapIsLeftOut) {
   open_gap(mesh, 6, {3.3, 3.2, 3.3});
   const std::size_t kept = mesh.tets.size();
   std::vector<VertexId> hosts;
-  HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
+  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
   const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(6, 2.5, 10), {});
   EXPECT_GT(report.crossings, 0U);
   EXPECT_GT(report.tets_relabelled, 0U);
@@ -163,7 +163,7 @@ TEST(SeparateCrossings, AnEdgeWithMoreThanAFullTurnOfTetsIsCounted) {
       outside.push_back({1, 2 + i, 3 + i});
     }
     std::vector<VertexId> hosts;
-    HostedPoints hosted(kNoPoints, hosts, mesh.points.size(), 1);
+    CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
     const std::size_t left = separate_crossings(mesh, hosted, {0.1, 0, 0});
     EXPECT_EQ(left, crossing_facets(mesh.points, outside).size() + (turn_deg > 360 ? 1 : 0)) << turn_deg;
   }
@@ -201,7 +201,7 @@ TEST(VolumeBalance, MovesTheInterfaceUntilTheVolumesAreRight) {
   options.label_of = {0, 1, 2};
   options.wanted_mm3 = {0, 51.5, 73.5};
   std::vector<VertexId> hosts;
-  const HostedPoints free(kNoPoints, hosts, mesh.points.size(), 1);
+  const CoveredSamples free(kNoPoints, hosts, mesh.points.size(), 1);
   MaterialMesh balanced = mesh;
   balance_volumes(balanced, free, options);
   const Extent extent = extent_of_materials(balanced, 3);
@@ -217,7 +217,7 @@ TEST(VolumeBalance, MovesTheInterfaceUntilTheVolumesAreRight) {
     hosts.push_back(v);
   }
   MaterialMesh held = mesh;
-  balance_volumes(held, HostedPoints(points, hosts, mesh.points.size(), 1e-3), options);
+  balance_volumes(held, CoveredSamples(points, hosts, mesh.points.size(), 1e-3), options);
   for (VertexId v = 0; v < mesh.points.size(); ++v) {
     EXPECT_LE((held.points[v] - mesh.points[v]).norm(), 1.1e-3);
   }
@@ -230,7 +230,7 @@ TEST(VolumeBalance, KeepsTheGoalOfTheAngles) {
   options.wanted_mm3 = {0, 70, 55};
   options.goal_sine_squared = sine_squared_of_deg(40);
   std::vector<VertexId> hosts;
-  balance_volumes(mesh, HostedPoints(kNoPoints, hosts, mesh.points.size(), 1), options);
+  balance_volumes(mesh, CoveredSamples(kNoPoints, hosts, mesh.points.size(), 1), options);
   for (const auto& n : mesh.tets) {
     EXPECT_GE(min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]),
               options.goal_sine_squared);

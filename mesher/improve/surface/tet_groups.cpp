@@ -1,6 +1,6 @@
 #include "mesher/improve/surface/tet_groups.hpp"
 
-#include "mesher/improve/surface/surface_faults.hpp"
+#include "mesher/improve/surface/surface_defects.hpp"
 
 namespace cbc3d {
 namespace {

@@ -1,10 +1,10 @@
-// Every hostile image through `cbc3d mesh` and through all metrics: a mesh or one clear line, in time and
+// Every adversarial image through `cbc3d mesh` and through all metrics: a mesh or one clear line, in time and
 // within 2 GiB.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "cases/hostile.hpp"
+#include "cases/adversarial.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "reports/results/testing_folder.hpp"
 #include "reports/run/child_process.hpp"
@@ -15,12 +15,12 @@ namespace {
 constexpr double kTimeoutS = 120;
 constexpr std::int64_t kMemoryLimitBytes = std::int64_t{2} << 30;
 
-class Hostile : public testing::TestWithParam<std::string> {
+class Adversarial : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    const auto all = cases::hostile_images();
+    const auto all = cases::adversarial_images();
     subject_ = &*std::find_if(all.begin(), all.end(),
-                              [](const cases::HostileImage& image) { return image.name == GetParam(); });
+                              [](const cases::AdversarialImage& image) { return image.name == GetParam(); });
     image_ = folder_.path() / (std::string(subject_->name) + std::string(subject_->extension));
     subject_->write(image_);
   }
@@ -41,11 +41,11 @@ class Hostile : public testing::TestWithParam<std::string> {
     return false;
   }
   TemporaryFolder folder_;
-  const cases::HostileImage* subject_ = nullptr;
+  const cases::AdversarialImage* subject_ = nullptr;
   std::filesystem::path image_;
 };
 
-TEST_P(Hostile, MeshOrOneLine) {
+TEST_P(Adversarial, MeshOrOneLine) {
   const auto mesh = folder_.path() / "mesh.vtu";
   std::vector<std::string> argv{MESHER, "mesh", image_, "--out", mesh};
   argv.insert(argv.end(), subject_->mesh_options.begin(), subject_->mesh_options.end());
@@ -66,7 +66,7 @@ TEST_P(Hostile, MeshOrOneLine) {
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
-  for (const cases::HostileImage& image : cases::hostile_images()) {
+  for (const cases::AdversarialImage& image : cases::adversarial_images()) {
     all.emplace_back(image.name);
   }
   return all;
@@ -78,7 +78,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Image, Hostile, testing::ValuesIn(names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Image, Adversarial, testing::ValuesIn(names()), test_name);
 
 }  // namespace
 }  // namespace cbc3d::reports

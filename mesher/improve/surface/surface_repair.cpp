@@ -1,4 +1,4 @@
-#include "mesher/improve/surface/surface_mending.hpp"
+#include "mesher/improve/surface/surface_repair.hpp"
 
 #include <limits>
 
@@ -39,9 +39,9 @@ const std::vector<Vec3>& compass() {
 }
 
 /// A mesh at which steps can be tried.
-class Workbench {
+class TrialEdits {
  public:
-  Workbench(MaterialMesh& mesh, const SurfaceGuide& guide, const MendOptions& options)
+  TrialEdits(MaterialMesh& mesh, const SurfaceGuide& guide, const MendOptions& options)
       : mesh_(mesh),
         complex_(mesh, guide.places.label_of),
         guide_(guide),
@@ -57,10 +57,10 @@ class Workbench {
 
   /// What steps do.
   struct Outcome {
-    SurfaceFaults before, after;
+    SurfaceDefects before, after;
     Steps repairs;  // that would bring back within the limit what they took beyond it
     [[nodiscard]] double gain() const { return sum(before) - sum(after); }
-    static double sum(const SurfaceFaults& faults) {
+    static double sum(const SurfaceDefects& faults) {
       return static_cast<double>(faults.shape()) + faults.far + faults.lonely +
              1e-3 * static_cast<double>(faults.folds);
     }
@@ -141,7 +141,7 @@ class Workbench {
     Steps undo = {step};
     swap(undo);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      for (const VertexId v : cramped_by(steps)) {
+      for (const VertexId v : vertices_of_bad_tets(steps)) {
         if (v != step.vertex && std::binary_search(free.begin(), free.end(), v)) {
           const Vec3 from = mesh_.points[v];
           climb(v);
@@ -221,7 +221,7 @@ class Workbench {
   }
 
   /// The vertices of tets below the goal round vertices that move.
-  [[nodiscard]] std::vector<VertexId> cramped_by(const Steps& steps) const {
+  [[nodiscard]] std::vector<VertexId> vertices_of_bad_tets(const Steps& steps) const {
     std::vector<VertexId> cramped;
     for (const Step& step : steps) {
       for (const TetId t : complex_.star(step.vertex)) {
@@ -270,11 +270,11 @@ class Mender {
   }
 
   MendReport run() {
-    FaultList faults = find_surface_faults(bench_.complex(), guide_);
+    FaultList faults = find_surface_defects(bench_.complex(), guide_);
     report_.faults = faults.seeds.size();
     report_.folds = faults.folds.size();
-    const bool hopeless = faults.seeds.size() > most_trials_ / kFewestTrials;
-    for (int round = 0; round < options_.rounds && !faults.seeds.empty() && !hopeless; ++round) {
+    const bool too_many_defects = faults.seeds.size() > most_trials_ / kFewestTrials;
+    for (int round = 0; round < options_.rounds && !faults.seeds.empty() && !too_many_defects; ++round) {
       std::size_t mended = 0;
       for (const auto& seeds : faults.seeds) {
         mended += mend(seeds) ? 1 : 0;
@@ -282,7 +282,7 @@ class Mender {
       if (mended == 0) {
         break;
       }
-      faults = find_surface_faults(bench_.complex(), guide_);
+      faults = find_surface_defects(bench_.complex(), guide_);
     }
     report_.faults_left = faults.seeds.size();
     report_.cuts_left = faults.cuts;
@@ -302,7 +302,7 @@ class Mender {
     region_ = ring_of(bench_.complex(), ring_of(bench_.complex(), seeds));
     end_of_trials_ = std::min(most_trials_, bench_.trials() + options_.place_trials);
     int changes = 0;
-    for (bool going = true; going && changes < kMostChanges && !is_tired();) {
+    for (bool going = true; going && changes < kMostChanges && !budget_exhausted();) {
       bench_.meter().look_at(region_);
       const FaultMeter::Scope scope = bench_.meter().scope_of(seeds);
       going = !bench_.meter().measure(scope).none_but_folds() && better(seeds, scope);
@@ -318,7 +318,7 @@ class Mender {
     may_trade_ = false;
     region_ = ring_of(bench_.complex(), ring_of(bench_.complex(), seeds));
     end_of_trials_ = std::min(most_trials_, bench_.trials() + kTrials);
-    for (int change = 0; change < kMostChanges && !is_tired(); ++change) {
+    for (int change = 0; change < kMostChanges && !budget_exhausted(); ++change) {
       bench_.meter().look_at(region_);
       if (bench_.meter().measure(bench_.meter().scope_of(seeds)).folds == 0 || !step_one_vertex(seeds)) {
         return;
@@ -327,10 +327,10 @@ class Mender {
   }
 
   [[nodiscard]] std::size_t find_folds_after(const FaultList& before) const {
-    return before.folds.empty() ? 0 : find_surface_faults(bench_.complex(), guide_).folds.size();
+    return before.folds.empty() ? 0 : find_surface_defects(bench_.complex(), guide_).folds.size();
   }
 
-  [[nodiscard]] bool is_tired() const { return bench_.trials() >= end_of_trials_; }
+  [[nodiscard]] bool budget_exhausted() const { return bench_.trials() >= end_of_trials_; }
 
   /// One change for the better: first such that no kind of fault grows.
   bool better(const std::vector<VertexId>& seeds, const FaultMeter::Scope& scope) {
@@ -348,7 +348,7 @@ class Mender {
 
   /// Carries steps out, and if need be the repairs they call for, when that is for the better.
   bool attempt(Steps steps) {
-    if (steps.empty() || is_tired()) {
+    if (steps.empty() || budget_exhausted()) {
       return false;
     }
     const auto outcome = bench_.outcome_of(steps);
@@ -386,7 +386,7 @@ class Mender {
       for (const VertexId v : seeds) {
         for (const Vec3& direction : compass()) {
           const Steps steps = {move(v, bench_.mesh().points[v] + share * options_.step_mm * direction)};
-          const auto outcome = is_tired() ? std::nullopt : bench_.outcome_of(steps);
+          const auto outcome = budget_exhausted() ? std::nullopt : bench_.outcome_of(steps);
           if (outcome && outcome->after.is_better_than(outcome->before, may_trade_) &&
               outcome->gain() > most) {
             most = outcome->gain();
@@ -447,7 +447,7 @@ class Mender {
     std::vector<std::pair<double, Steps>> firsts;
     for (const TetGroup& group : groups) {
       for (const Steps& steps : ways_to_hand_over(group)) {
-        const auto outcome = is_tired() ? std::nullopt : bench_.outcome_of(steps);
+        const auto outcome = budget_exhausted() ? std::nullopt : bench_.outcome_of(steps);
         if (outcome && outcome->after.shape() <= outcome->before.shape() + 1) {
           firsts.emplace_back(-outcome->gain(), steps);
         }
@@ -491,7 +491,7 @@ class Mender {
     return seconds;
   }
 
-  Workbench bench_;
+  TrialEdits bench_;
   const SurfaceGuide& guide_;
   const MendOptions& options_;
   std::size_t most_trials_ = 0;

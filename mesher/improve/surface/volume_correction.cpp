@@ -1,4 +1,4 @@
-#include "mesher/improve/surface/volume_balance.hpp"
+#include "mesher/improve/surface/volume_correction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ Extent extent_of(const MaterialMesh& mesh, const TetNeighbours& neighbours, std:
 
 class Balance {
  public:
-  Balance(MaterialMesh& mesh, const HostedPoints& hosted, const BalanceOptions& options)
+  Balance(MaterialMesh& mesh, const CoveredSamples& hosted, const BalanceOptions& options)
       : mesh_(mesh),
         hosted_(hosted),
         options_(options),
@@ -129,7 +129,7 @@ class Balance {
   [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, star_of(around_, v)); }
 
   MaterialMesh& mesh_;
-  const HostedPoints& hosted_;
+  const CoveredSamples& hosted_;
   const BalanceOptions& options_;
   TetNeighbours neighbours_;
   VertexTets around_;
@@ -144,7 +144,7 @@ Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials) {
   return extent_of(mesh, tet_neighbours(mesh.tets, mesh.points.size()), materials);
 }
 
-void balance_volumes(MaterialMesh& mesh, const HostedPoints& hosted, const BalanceOptions& options) {
+void balance_volumes(MaterialMesh& mesh, const CoveredSamples& hosted, const BalanceOptions& options) {
   Balance(mesh, hosted, options).run();
 }
 

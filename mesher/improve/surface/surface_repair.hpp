@@ -1,12 +1,12 @@
 // The end game of the improvement: what is still wrong with the surfaces, place by place.
 //
 // Round each fault two rings of vertices are searched for a change that makes the surfaces there better and
-// nothing worse (SurfaceFaults): steps of vertices, groups of tets that change hands at once, and both
+// nothing worse (SurfaceDefects): steps of vertices, groups of tets that change hands at once, and both
 // together. Faults are counted after a change as a whole, so that on the way there a surface may be no
 // manifold. The goal of the angles holds throughout.
 #pragma once
 
-#include "mesher/improve/surface/surface_faults.hpp"
+#include "mesher/improve/surface/surface_defects.hpp"
 
 namespace cbc3d {
 

@@ -2,7 +2,7 @@
 // is drawn apart. Inside, where tets fill both sides, nothing can cross while all tets are positive.
 #pragma once
 
-#include "mesher/improve/surface/hosted_points.hpp"
+#include "mesher/improve/surface/covered_samples.hpp"
 #include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d {
@@ -36,7 +36,7 @@ std::size_t count_crossings_of_labels(const MaterialMesh& mesh, const std::vecto
 /// Draws the vertices of crossing facets, and of facets with an edge in common round which the tets fill more
 /// than a full turn, back into their own tets until there are none; their points stay within reach. Returns
 /// the pairs left.
-std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
+std::size_t separate_crossings(MaterialMesh& mesh, const CoveredSamples& hosted,
                                const CrossingOptions& options);
 
 }  // namespace cbc3d

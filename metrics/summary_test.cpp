@@ -21,10 +21,10 @@ LabelImage cut_box(int cut) {
 }
 
 json look_at(const Mesh& mesh, const LabelImage& image) {
-  return test::judge(mesh, image, {false, false})["one_look"];
+  return test::judge(mesh, image, {false, false})["summary"];
 }
 
-TEST(OneLook, OfTheVoxelsThemselves) {
+TEST(Summary, OfTheVoxelsThemselves) {
   const LabelImage image = cut_box(8);
   const json look = look_at(test::kuhn_mesh(image), image);
   const double diagonal = std::sqrt(1 + .25 + 4);
@@ -45,7 +45,7 @@ TEST(OneLook, OfTheVoxelsThemselves) {
   EXPECT_EQ(look["min_dihedral_label"], 3);
 }
 
-TEST(OneLook, AnInterfaceOutOfPlaceIsNoFaultOfTheUnion) {
+TEST(Summary, AnInterfaceOutOfPlaceIsNoFaultOfTheUnion) {
   const json look = look_at(test::kuhn_mesh(cut_box(10)), cut_box(7));
   EXPECT_NEAR(look["union_hausdorff_diagonals"].get<double>(), .5, 1e-12);
   // The interface has moved by 3 mm, from half a voxel beside the centres on either side.
@@ -61,16 +61,16 @@ TEST(OneLook, AnInterfaceOutOfPlaceIsNoFaultOfTheUnion) {
   EXPECT_EQ(look["volume_error_label"], 9);
 }
 
-TEST(OneLook, OnlyLabelsAboveFiftyVoxelsMustBeThere) {
+TEST(Summary, OnlyLabelsAboveFiftyVoxelsMustBeThere) {
   const LabelImage image = cut_box(8);
   LabelImage without = image;
   test::fill_box(without, {16, 2, 2}, {18, 11, 11}, kBackground);
   const json result = test::judge(test::kuhn_mesh(without), image, {false, false});
-  EXPECT_EQ(result["one_look"]["missing_labels"], json::array({5}));
+  EXPECT_EQ(result["summary"]["missing_labels"], json::array({5}));
   EXPECT_EQ(result["fidelity"]["missing_labels"], json::array({5, 6}));
 }
 
-TEST(OneLook, NamesTheLabelsWithFaults) {
+TEST(Summary, NamesTheLabelsWithFaults) {
   const LabelImage image = cut_box(8);
   Mesh mesh = test::kuhn_mesh(image);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -84,7 +84,7 @@ TEST(OneLook, NamesTheLabelsWithFaults) {
   EXPECT_EQ(look["inverted_labels"], json::array({6}));
 }
 
-TEST(OneLook, OfNoMesh) {
+TEST(Summary, OfNoMesh) {
   const json look = look_at({}, cut_box(8));
   EXPECT_EQ(look["elements"], 0);
   for (const char* key : {"min_dihedral_deg", "min_dihedral_label", "hausdorff_mm", "hausdorff_label",

@@ -10,7 +10,7 @@
 namespace cbc3d {
 
 /// Volumes times six. Background has none that counts.
-class VolumeShares {
+class LocalVolumeChange {
  public:
   /// The vertex whose facets are counted, and one whose facets have been.
   struct Vertices {

@@ -8,13 +8,13 @@
 
 namespace cbc3d {
 
-class HostedPoints {
+class CoveredSamples {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
   /// `hosts` has a vertex or kNoVertex for every point. Both must outlive this.
-  HostedPoints(const std::vector<InterfacePoint>& points, std::vector<VertexId>& hosts, std::size_t vertices,
-               double reach_mm)
+  CoveredSamples(const std::vector<InterfacePoint>& points, std::vector<VertexId>& hosts,
+                 std::size_t vertices, double reach_mm)
       : points_(points), hosts_(hosts), reach_squared_(reach_mm * reach_mm), first_(vertices, kNone) {
     next_.assign(points.size(), kNone);
     for (std::uint32_t p = 0; p < hosts.size(); ++p) {

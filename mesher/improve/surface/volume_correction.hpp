@@ -1,7 +1,7 @@
 // What each material's volume lacks in the end, its surface gains by a small step along its normals.
 #pragma once
 
-#include "mesher/improve/surface/hosted_points.hpp"
+#include "mesher/improve/surface/covered_samples.hpp"
 #include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d {
@@ -22,6 +22,6 @@ struct Extent {
 Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials);
 
 /// Moves vertices between two materials; those where more meet stay. Deterministic.
-void balance_volumes(MaterialMesh& mesh, const HostedPoints& hosted, const BalanceOptions& options);
+void balance_volumes(MaterialMesh& mesh, const CoveredSamples& hosted, const BalanceOptions& options);
 
 }  // namespace cbc3d

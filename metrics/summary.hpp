@@ -16,7 +16,7 @@ inline constexpr std::size_t kVoxelsForVolumeError = 500;
 /// Labels of no more voxels than this may be missing.
 inline constexpr std::size_t kVoxelsToBeThere = 50;
 
-/// What one_look is made of.
+/// What summary is made of.
 struct Judged {
   const MeshView& view;
   const ImageFrame& frame;
@@ -35,6 +35,6 @@ struct Judged {
 /// have that label beside them as min_dihedral_label, hausdorff_label, image_to_mesh_label,
 /// mesh_to_image_label, volume_error_label (null where there is none), counts the labels that have any:
 /// inverted_labels, non_manifold_labels, self_intersection_labels.
-nlohmann::json one_look(const Judged& mesh);
+nlohmann::json summary(const Judged& mesh);
 
 }  // namespace cbc3d::metrics

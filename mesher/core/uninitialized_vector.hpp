@@ -10,7 +10,7 @@ namespace cbc3d {
 /// What makes an allocator leave elements unset that are given no value: to zero a million of them, in order
 /// to write each a moment later, is time that no second thread can share, and it is that thread which then
 /// does not have the pages near it.
-struct LeavesUnset {
+struct LeavesUninitialized {
   template <typename U>
   void construct(U* place) {
     ::new (static_cast<void*>(place)) U;
@@ -22,18 +22,18 @@ struct LeavesUnset {
 };
 
 template <typename T>
-struct UnsetAllocator : std::allocator<T>, LeavesUnset {
-  UnsetAllocator() = default;
+struct UninitializedAllocator : std::allocator<T>, LeavesUninitialized {
+  UninitializedAllocator() = default;
   template <typename U>
-  UnsetAllocator(const UnsetAllocator<U>& /*other*/) {}  // NOLINT: allocators convert
+  UninitializedAllocator(const UninitializedAllocator<U>& /*other*/) {}  // NOLINT: allocators convert
   template <typename U>
   struct rebind {
-    using other = UnsetAllocator<U>;
+    using other = UninitializedAllocator<U>;
   };
 };
 
-/// After UnsetVector(n) or resize(n) every new element is to be written before it is read.
+/// After UninitializedVector(n) or resize(n) every new element is to be written before it is read.
 template <typename T>
-using UnsetVector = std::vector<T, UnsetAllocator<T>>;
+using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 
 }  // namespace cbc3d

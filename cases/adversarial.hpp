@@ -10,7 +10,7 @@
 
 namespace cbc3d::cases {
 
-struct HostileImage {
+struct AdversarialImage {
   std::string_view name;       ///< also the stem of the file
   std::string_view extension;  ///< with its dot
   bool readable;               ///< a correct file with something to mesh; else to be refused as bad input
@@ -19,6 +19,6 @@ struct HostileImage {
 };
 
 /// All of them; files of at most some hundred kilobytes, the same bytes every time.
-std::span<const HostileImage> hostile_images();
+std::span<const AdversarialImage> adversarial_images();
 
 }  // namespace cbc3d::cases

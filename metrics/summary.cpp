@@ -1,4 +1,4 @@
-#include "metrics/one_look.hpp"
+#include "metrics/summary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +121,7 @@ void write_mesh(json& object, const Judged& mesh) {
 
 }  // namespace
 
-json one_look(const Judged& mesh) {
+json summary(const Judged& mesh) {
   json object;
   write_mesh(object, mesh);
   const double diagonal_mm = mesh.frame.spacing_mm.norm();

@@ -1,4 +1,4 @@
-#include "mesher/lattice/reds_of_vertices.hpp"
+#include "mesher/lattice/vertex_to_red_tets.hpp"
 
 #include <bit>
 #include <numeric>
@@ -24,7 +24,7 @@ struct Middle {
 
 }  // namespace
 
-void RedsOfVertices::build(const Lattice& lattice) {
+void VertexToRedTets::build(const Lattice& lattice) {
   drop();
   const auto middles = collect<Middle>(lattice.reds.size(), 6, [&](std::size_t r, const auto& add) {
     for_each_middle(lattice, lattice.reds[r], [&](VertexId v) { add({v, static_cast<std::uint32_t>(r)}); });
@@ -52,7 +52,7 @@ void RedsOfVertices::build(const Lattice& lattice) {
   });
 }
 
-void RedsOfVertices::note_changed(const Lattice& lattice, std::size_t red) {
+void VertexToRedTets::note_changed(const Lattice& lattice, std::size_t red) {
   last_.resize(lattice.points.size(), kNone);
   const auto note = [&](VertexId v) {
     later_.push_back({static_cast<std::uint32_t>(red), last_[v]});

@@ -1,8 +1,8 @@
-#include "mesher/improve/surface/surface_faults.hpp"
+#include "mesher/improve/surface/surface_defects.hpp"
 
 #include <limits>
 
-#include "mesher/improve/surface/surface_crossings.hpp"
+#include "mesher/improve/surface/self_intersections.hpp"
 
 namespace cbc3d {
 namespace {
@@ -37,7 +37,7 @@ bool has(const std::vector<VertexId>& sorted, VertexId v) {
 
 }  // namespace
 
-bool SurfaceFaults::is_better_than(const SurfaceFaults& other, bool may_trade) const {
+bool SurfaceDefects::is_better_than(const SurfaceDefects& other, bool may_trade) const {
   constexpr double kTiny = 1e-3;
   const bool shape_no_worse =
       may_trade ? shape() <= other.shape() : pinches <= other.pinches && cuts <= other.cuts;
@@ -150,8 +150,8 @@ FaultMeter::Scope FaultMeter::scope_of(std::vector<VertexId> vertices) const {
   return scope;
 }
 
-SurfaceFaults FaultMeter::measure(const Scope& scope, std::size_t most) const {
-  SurfaceFaults faults;
+SurfaceDefects FaultMeter::measure(const Scope& scope, std::size_t most) const {
+  SurfaceDefects faults;
   faults.pinches = pinches(scope.vertices);
   if (faults.pinches <= most) {
     count_cuts_and_folds(scope.vertices, faults);
@@ -203,7 +203,7 @@ FaultMeter::Facet FaultMeter::facet(TetId t, std::size_t n) const {
   return facet;
 }
 
-void FaultMeter::count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceFaults& faults) const {
+void FaultMeter::count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceDefects& faults) const {
   const auto is_active = [&](const Facet& f) {
     return has(vertices, f.nodes[0]) || has(vertices, f.nodes[1]) || has(vertices, f.nodes[2]);
   };
@@ -434,7 +434,7 @@ void add_lonely(const LabelledComplex& complex, const SurfaceGuide& guide, Seeds
 
 }  // namespace
 
-FaultList find_surface_faults(const LabelledComplex& complex, const SurfaceGuide& guide) {
+FaultList find_surface_defects(const LabelledComplex& complex, const SurfaceGuide& guide) {
   FaultList faults;
   const Facets facets = all_facets(complex);
   add_pairs(facets, crossing_facets(complex.mesh().points, facets.nodes), faults.seeds);

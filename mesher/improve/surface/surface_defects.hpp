@@ -19,7 +19,7 @@
 
 namespace cbc3d {
 
-struct SurfaceFaults {
+struct SurfaceDefects {
   std::size_t pinches = 0, cuts = 0;
   double far = 0, lonely = 0;  ///< sums of distances, in units of the limit, of those beyond it
   std::size_t folds = 0;
@@ -28,7 +28,7 @@ struct SurfaceFaults {
   [[nodiscard]] bool none_but_folds() const { return shape() == 0 && far == 0 && lonely == 0; }
   /// True when nothing is worse and something is better; with `may_trade` a cut may become a pinch, or a
   /// pinch a cut. Folds count where all else is equal.
-  [[nodiscard]] bool is_better_than(const SurfaceFaults& other, bool may_trade) const;
+  [[nodiscard]] bool is_better_than(const SurfaceDefects& other, bool may_trade) const;
 };
 
 /// What the surfaces are measured against.
@@ -82,7 +82,7 @@ struct FaultList {
   std::size_t cuts = 0;
 };
 /// Parallel.
-FaultList find_surface_faults(const LabelledComplex& complex, const SurfaceGuide& guide);
+FaultList find_surface_defects(const LabelledComplex& complex, const SurfaceGuide& guide);
 
 /// Measures faults near vertices that change. Both complex and guide must outlive it.
 class FaultMeter {
@@ -100,7 +100,7 @@ class FaultMeter {
   /// Of vertices that were looked at, where they are now.
   [[nodiscard]] Scope scope_of(std::vector<VertexId> vertices) const;
   /// The faults in which one of the vertices takes part; given up where there are more pinches than `most`.
-  [[nodiscard]] SurfaceFaults measure(const Scope& scope, std::size_t most = ~std::size_t{0}) const;
+  [[nodiscard]] SurfaceDefects measure(const Scope& scope, std::size_t most = ~std::size_t{0}) const;
   [[nodiscard]] std::size_t pinches(const std::vector<VertexId>& vertices) const;
   [[nodiscard]] double far(const std::vector<VertexId>& vertices) const;
   /// The points of a scope that are lonely.
@@ -124,7 +124,7 @@ class FaultMeter {
   void add_facets(std::vector<TetId>& tets, std::vector<Facet>& facets) const;
   [[nodiscard]] Facet facet(TetId t, std::size_t n) const;
   [[nodiscard]] bool is_on(VertexId v, std::uint32_t point, bool outer) const;
-  void count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceFaults& faults) const;
+  void count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceDefects& faults) const;
   [[nodiscard]] double lonely(const Scope& scope) const;
 
   const LabelledComplex& complex_;

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "mesher/improve/local/tet_shape.hpp"
+#include "mesher/improve/surface/self_intersections.hpp"
+#include "mesher/improve/surface/surface_repair.hpp"
 #include "mesher/improve/surface/testing_layered_mesh.hpp"
-#include "mesher/improve/surface/surface_crossings.hpp"
-#include "mesher/improve/surface/surface_mending.hpp"
 #include "mesher/improve/surface/tet_groups.hpp"
 
 namespace cbc3d {
@@ -91,35 +91,35 @@ double worst_angle(const MaterialMesh& mesh) {
   return worst;
 }
 
-TEST(SurfaceFaults, AreBetterOnlyWhereNothingIsWorse) {
-  const SurfaceFaults base{2, 3, 1.5, 1.2};
+TEST(SurfaceDefects, AreBetterOnlyWhereNothingIsWorse) {
+  const SurfaceDefects base{2, 3, 1.5, 1.2};
   EXPECT_FALSE(base.is_better_than(base, true));
-  EXPECT_TRUE((SurfaceFaults{1, 3, 1.5, 1.2}.is_better_than(base, false)));
-  EXPECT_TRUE((SurfaceFaults{2, 3, 0, 1.2}.is_better_than(base, false)));
-  EXPECT_FALSE((SurfaceFaults{0, 0, 1.6, 0}.is_better_than(base, true)));
-  EXPECT_FALSE((SurfaceFaults{0, 0, 0, 1.3}.is_better_than(base, true)));
-  EXPECT_FALSE((SurfaceFaults{3, 1, 1.5, 1.2}.is_better_than(base, false)));
-  EXPECT_TRUE((SurfaceFaults{3, 1, 1.5, 1.2}.is_better_than(base, true)));  // a cut for a pinch
-  EXPECT_FALSE((SurfaceFaults{3, 3, 0, 0}.is_better_than(base, true)));
-  EXPECT_TRUE((SurfaceFaults{2, 2, 1.5, 1.2, 9}.is_better_than(base, false)));  // folds count last
-  EXPECT_FALSE((SurfaceFaults{3, 3, 1.5, 1.2, 0}.is_better_than({2, 3, 1.5, 1.2, 4}, true)));
-  EXPECT_TRUE((SurfaceFaults{2, 3, 1.5, 1.2, 3}.is_better_than({2, 3, 1.5, 1.2, 4}, false)));
+  EXPECT_TRUE((SurfaceDefects{1, 3, 1.5, 1.2}.is_better_than(base, false)));
+  EXPECT_TRUE((SurfaceDefects{2, 3, 0, 1.2}.is_better_than(base, false)));
+  EXPECT_FALSE((SurfaceDefects{0, 0, 1.6, 0}.is_better_than(base, true)));
+  EXPECT_FALSE((SurfaceDefects{0, 0, 0, 1.3}.is_better_than(base, true)));
+  EXPECT_FALSE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, false)));
+  EXPECT_TRUE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, true)));  // a cut for a pinch
+  EXPECT_FALSE((SurfaceDefects{3, 3, 0, 0}.is_better_than(base, true)));
+  EXPECT_TRUE((SurfaceDefects{2, 2, 1.5, 1.2, 9}.is_better_than(base, false)));  // folds count last
+  EXPECT_FALSE((SurfaceDefects{3, 3, 1.5, 1.2, 0}.is_better_than({2, 3, 1.5, 1.2, 4}, true)));
+  EXPECT_TRUE((SurfaceDefects{2, 3, 1.5, 1.2, 3}.is_better_than({2, 3, 1.5, 1.2, 4}, false)));
 }
 
-TEST(SurfaceFaults, NoneInCleanLayersAndEachKindWhereItIs) {
+TEST(SurfaceDefects, NoneInCleanLayersAndEachKindWhereItIs) {
   MaterialMesh mesh = two_layers(kSize, kPlane);
   const ImagePlaces image = places();
   std::vector<InterfacePoint> points = points_on_plane();
   const SurfaceGuide guide{points, image, 1};
   {
     const LabelledComplex complex(mesh, image.label_of);
-    EXPECT_TRUE(find_surface_faults(complex, guide).seeds.empty());
+    EXPECT_TRUE(find_surface_defects(complex, guide).seeds.empty());
   }
   // A point beyond the surface's reach is lonely, and its neighbours are known.
   points.push_back({{3, 3, 4.5F}, 1, 2});
   {
     const LabelledComplex complex(mesh, image.label_of);
-    const FaultList faults_found = find_surface_faults(complex, guide);
+    const FaultList faults_found = find_surface_defects(complex, guide);
     ASSERT_EQ(faults_found.seeds.size(), 1U);
     for (const VertexId v : faults_found.seeds[0]) {
       EXPECT_LE((mesh.points[v] - points.back().centre()).norm(), 1.5);
@@ -145,7 +145,7 @@ TEST(SurfaceFaults, NoneInCleanLayersAndEachKindWhereItIs) {
     }
   }();
   const LabelledComplex complex(mesh, image.label_of);
-  const FaultList faults_found = find_surface_faults(complex, guide);
+  const FaultList faults_found = find_surface_defects(complex, guide);
   ASSERT_EQ(faults_found.seeds.size(), 1U);
   EXPECT_EQ(faults_found.seeds[0], std::vector<VertexId>{tip});
   EXPECT_EQ(faults_found.cuts, 0U);
@@ -204,7 +204,7 @@ TEST(MendSurfaces, LumpsThatRelabellingLeavesAreMended) {
     MaterialMesh mesh = with_lump(seed, 5);
     ASSERT_GT(strays(mesh) + faults(mesh), 0U);
     std::vector<VertexId> hosts(points.size(), kNoVertex);
-    HostedPoints hosted(points, hosts, mesh.points.size(), 1);
+    CoveredSamples hosted(points, hosts, mesh.points.size(), 1);
     RelabelOptions short_steps;
     short_steps.reach_mm = 0.5;
     relabel_misplaced_tets(mesh, hosted, places(), short_steps);
@@ -328,7 +328,7 @@ TEST(MendSurfaces, AGapThatIsInsideOutIsTurnedBack) {
   for (const double level : {0.05, -0.05}) {
     MaterialMesh mesh = pancake(level);
     ASSERT_GT(worst_angle(mesh), 0);
-    EXPECT_EQ(find_surface_faults(LabelledComplex(mesh, image.label_of), guide).folds.empty(), level > 0);
+    EXPECT_EQ(find_surface_defects(LabelledComplex(mesh, image.label_of), guide).folds.empty(), level > 0);
   }
   // The rim of the gap is pinched, which no step of a vertex mends: what is under test is the gap.
   MaterialMesh mesh = pancake(-0.05);
@@ -370,7 +370,7 @@ TEST(MendSurfaces, AnOuterSurfaceThatCutsAnInnerOneIsDrawnOut) {
     MaterialMesh mesh = filled_pancake({draw(-0.3, 0.5), draw(-0.4, 0.4), draw(-0.3, -0.05)});
     ASSERT_EQ(testing::inverted_tets(mesh.tets, mesh.points), 0U);
     const std::size_t crossings = count_crossings_of_labels(mesh, image.label_of);
-    EXPECT_EQ(find_surface_faults(LabelledComplex(mesh, image.label_of), guide).cuts, crossings);
+    EXPECT_EQ(find_surface_defects(LabelledComplex(mesh, image.label_of), guide).cuts, crossings);
     if (crossings == 0) {
       continue;
     }
@@ -391,7 +391,7 @@ TEST(MendSurfaces, TipsAcrossAGapNoLongerCut) {
     open_gap(mesh, kSize, {3 + draw(), 3 + draw(), 3.2 + draw()});
     std::vector<VertexId> hosts;
     const std::vector<InterfacePoint> none;
-    HostedPoints hosted(none, hosts, mesh.points.size(), 1);
+    CoveredSamples hosted(none, hosts, mesh.points.size(), 1);
     if (MaterialMesh copy = mesh; separate_crossings(copy, hosted, {0.1, 0, 0}) == 0) {
       continue;  // this one does not reach over
     }

@@ -1,4 +1,4 @@
-#include "mesher/improve/surface/surface_crossings.hpp"
+#include "mesher/improve/surface/self_intersections.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -249,7 +249,7 @@ class CrossingFinder {
 /// Moves single vertices of a mesh whose tets stay.
 class Retreat {
  public:
-  Retreat(MaterialMesh& mesh, const HostedPoints& hosted, const CrossingOptions& options)
+  Retreat(MaterialMesh& mesh, const CoveredSamples& hosted, const CrossingOptions& options)
       : mesh_(mesh),
         hosted_(hosted),
         options_(options),
@@ -274,7 +274,7 @@ class Retreat {
   [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, star_of(around_, v)); }
 
   MaterialMesh& mesh_;
-  const HostedPoints& hosted_;
+  const CoveredSamples& hosted_;
   const CrossingOptions& options_;
   VertexTets around_;
 };
@@ -402,7 +402,7 @@ std::size_t count_crossings_of_labels(const MaterialMesh& mesh, const std::vecto
   return crossing_facets(mesh.points, facets).size();
 }
 
-std::size_t separate_crossings(MaterialMesh& mesh, const HostedPoints& hosted,
+std::size_t separate_crossings(MaterialMesh& mesh, const CoveredSamples& hosted,
                                const CrossingOptions& options) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   Retreat retreat(mesh, hosted, options);

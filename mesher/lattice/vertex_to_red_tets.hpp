@@ -12,7 +12,7 @@ namespace cbc3d {
 
 /// For every vertex the red tets that it is a node of, or the middle of a split edge: rows of what was there
 /// when this was built, and lists of what came since. What is no longer so stays in them.
-class RedsOfVertices {
+class VertexToRedTets {
  public:
   [[nodiscard]] bool is_built() const { return !first_.empty(); }
   void build(const Lattice& lattice);

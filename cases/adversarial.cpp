@@ -1,4 +1,4 @@
-#include "cases/hostile.hpp"
+#include "cases/adversarial.hpp"
 
 #include <array>
 #include <bit>
@@ -53,16 +53,16 @@ void write_file(const fs::path& file, const std::string& bytes) {
 }
 
 /// An image in which a function gives the labels.
-HostileImage image(std::string_view name, const Index3& size, const std::string& axes,
-                   const LabelAt& label_at) {
+AdversarialImage image(std::string_view name, const Index3& size, const std::string& axes,
+                       const LabelAt& label_at) {
   return {name, ".nrrd", true, [=](const fs::path& file) {
             write_file(file, nrrd_header(size, axes) + voxel_bytes(size, label_at));
           }};
 }
 
-HostileImage refused(HostileImage hostile) {
-  hostile.readable = false;
-  return hostile;
+AdversarialImage refused(AdversarialImage adversarial) {
+  adversarial.readable = false;
+  return adversarial;
 }
 
 /// A ball of radius 6 in an image of side 17, its upper half of another label.
@@ -117,10 +117,10 @@ void write_empty_promise(const fs::path& file) {
   write_file(file, nrrd_header({1500, 1500, 1500}, straight_axes(1)) + std::string(1000, '\1'));
 }
 
-std::vector<HostileImage> all_images() {
+std::vector<AdversarialImage> all_images() {
   const std::string unit = straight_axes(1);
   const auto everywhere = [](int, int, int) { return 1; };
-  std::vector<HostileImage> images;
+  std::vector<AdversarialImage> images;
   images.push_back(image("one-voxel", {1, 1, 1}, unit, everywhere));
   images.push_back(image("one-slice", {24, 20, 1}, unit, speckle(1, .6, 1)));
   images.push_back(image("one-row", {24, 1, 1}, unit, everywhere));
@@ -161,8 +161,8 @@ std::vector<HostileImage> all_images() {
 
 }  // namespace
 
-std::span<const HostileImage> hostile_images() {
-  static const std::vector<HostileImage> images = all_images();
+std::span<const AdversarialImage> adversarial_images() {
+  static const std::vector<AdversarialImage> images = all_images();
   return images;
 }
 
