@@ -7,7 +7,6 @@
 
 #include "cases/core/testing_folder.hpp"
 #include "cases/manifest.hpp"
-#include "cases/phantoms/noise.hpp"
 #include "cases/phantoms/random.hpp"
 #include "cases/phantoms/registry.hpp"
 #include "mesher/core/error.hpp"
@@ -135,42 +134,6 @@ TEST(PaperPhantoms, CoarserImagesShowTheSameShape) {
                          static_cast<double>(make_phantom(coarse).voxels_per_material()[1]);
     EXPECT_NEAR(ratio, 27.0 / 8, .15) << name;
   }
-}
-
-TEST(Tubes, RoundConeDistanceIsExact) {
-  // By the angle of its side: a cone along x from radius 2 to 1 over 5, seen beside its middle.
-  const RoundCone cone({{0, 0, 0}, 2}, {{5, 0, 0}, 1});
-  const double sine = 1.0 / 5, cosine = std::sqrt(1 - sine * sine);
-  const Vec3 on_axis{2, 0, 0}, normal{sine, cosine, 0};
-  const double radius = 2 - 2 * sine;  // of the ball at on_axis that touches the side
-  EXPECT_NEAR(cone.distance_mm(on_axis), -radius, 1e-12);
-  EXPECT_NEAR(cone.distance_mm(on_axis + (radius + 3) * normal), 3, 1e-12);
-  EXPECT_NEAR(cone.distance_mm({-5, 0, 0}), 3, 1e-12);
-  EXPECT_NEAR(cone.distance_mm({9, 0, 0}), 3, 1e-12);
-  EXPECT_NEAR(RoundCone({{0, 0, 0}, 2}, {{.5, 0, 0}, 1}).distance_mm({0, 6, 0}), 4, 1e-12);
-  EXPECT_NEAR(RoundCone({{.5, 0, 0}, 1}, {{0, 0, 0}, 2}).distance_mm({0, 6, 0}), 4, 1e-12);
-}
-
-TEST(Noise, CircleIsThatOfTheLibrary) {
-  for (int n = -500; n < 500; ++n) {
-    const double turns = 0.01371 * n;
-    EXPECT_NEAR(circle_at(turns).cosine, std::cos(2 * M_PI * turns), 1e-13) << turns;
-    EXPECT_NEAR(circle_at(turns).sine, std::sin(2 * M_PI * turns), 1e-13) << turns;
-  }
-}
-
-TEST(Noise, IsSmoothAndZeroOnTheLattice) {
-  EXPECT_EQ(gradient_noise(1, {3, -4, 5}), 0);
-  double least = 1, most = -1;
-  for (int n = 0; n < 2000; ++n) {
-    const Vec3 p{.37 * n, -.21 * n, .113 * n};
-    const double here = gradient_noise(1, p);
-    EXPECT_LT(std::abs(gradient_noise(1, p + Vec3{1e-3, 0, 0}) - here), 5e-3);
-    least = std::min(least, here);
-    most = std::max(most, here);
-  }
-  EXPECT_LT(least, -.5);
-  EXPECT_GT(most, .5);
 }
 
 }  // namespace

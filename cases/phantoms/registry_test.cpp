@@ -126,11 +126,6 @@ TEST(Phantoms, TrueDistanceIsThatOfTheVoxelsAndOfTheFormula) {
   EXPECT_NEAR(at(0, 4), -shape.radii[3], 1e-12);
 }
 
-TEST(Phantoms, BoxAndBall) {
-  EXPECT_EQ(volumes_mm3(box_image({8, 9, 10}, {1, 2, 3}, {1, 1, 1}, {3, 4, 5}))[1], 3 * 4 * 5 * 6.0);
-  EXPECT_NEAR(volumes_mm3(ball_image({40, 40, 20}, {.5, .5, 1}, 8))[1], ball(8), .02 * ball(8));
-}
-
 TEST(Phantoms, VesselsAreThinAndWithinTheImage) {
   const PhantomKind& kind = *find_phantom("vessels");
   const LabelImage image = vessels_phantom(kind.size, kind.spacing_mm, 1);
