@@ -16,7 +16,7 @@ namespace cbc3d {
 namespace {
 
 MaterialMesh mesh_of(const LabelImage& image, const MeshImageOptions& options) {
-  Progress quiet(true);
+  Progress quiet;
   MeshImageReport report;
   return to_material_mesh(mesh_image(image, options, quiet, report), image);
 }

@@ -23,7 +23,7 @@ using Dials = std::function<void(ImproveOptions&)>;
 
 Mesh mesh_of(const LabelImage& image, MeshImageOptions options, const Dials& turn) {
   turn(options.improve);
-  Progress quiet(true);
+  Progress quiet;
   MeshImageReport report;
   return mesh_image(image, options, quiet, report);
 }

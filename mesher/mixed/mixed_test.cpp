@@ -33,7 +33,7 @@ MaterialMesh mesh_of(const LabelImage& image, bool mixed, int iterations) {
   options.refine.finest_spacing_mm = 4;
   options.mixed = mixed;
   options.deform.iterations = iterations;
-  Progress quiet(true);
+  Progress quiet;
   MeshImageReport report;
   return to_material_mesh(mesh_image(image, options, quiet, report), image);
 }

@@ -16,7 +16,7 @@ namespace cbc3d {
 namespace {
 
 Mesh mesh_of(const LabelImage& image, const MeshImageOptions& options, MeshImageReport& report) {
-  Progress quiet(true);
+  Progress quiet;
   return mesh_image(image, options, quiet, report);
 }
 

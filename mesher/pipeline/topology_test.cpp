@@ -22,7 +22,7 @@ Mesh mesh_with_checks(const LabelImage& image, bool checks, MeshImageReport& rep
   options.refine.max_distance_mm = 2 * image.frame.voxel_diagonal_mm();
   options.deform.iterations = 0;
   options.topology.enabled = checks;
-  Progress quiet(true);
+  Progress quiet;
   return mesh_image(image, options, quiet, report);
 }
 
@@ -92,7 +92,7 @@ TEST(Topology, NoiseBecomesManifoldWithoutTheRuleOfOneFaceToo) {
   options.improve.enabled = false;
   ASSERT_FALSE(options.topology.one_face_rule);
   MeshImageReport report;
-  Progress quiet(true);
+  Progress quiet;
   const Mesh mesh = mesh_image(image, options, quiet, report);
   EXPECT_EQ(report.topology.non_manifold_vertices_left, 0U);
   for (const Label label : {1, 2}) {
@@ -137,10 +137,10 @@ TEST(Topology, WarnsWithoutVoxelCleaning) {
   options.topology.enabled = true;
   options.clean.manifold_voxels = false;
   MeshImageReport report;
-  Progress quiet(true);
+  Progress quiet;
   mesh_image(image, options, quiet, report);
   EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
-    return w.find("--no-manifold-voxels") != std::string::npos;
+    return w.find("manifold_voxels off") != std::string::npos;
   }));
 }
 
