@@ -41,7 +41,8 @@ FidelityOptions fidelity_options(const EvaluateOptions& options, const ImageFram
 
 }  // namespace
 
-json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options, Progress& progress) {
+json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options,
+              const Progress& progress) {
   const MeshView view(mesh, image);
   progress.step("element quality", 0);
   const MeshQuality quality = element_quality(view);

@@ -33,6 +33,6 @@ struct EvaluateOptions {
 /// A figure that cannot be had is null, never NaN. The bytes do not depend on the thread count. Throws
 /// InputError when a cell names a vertex that does not exist or a coordinate is not finite.
 nlohmann::json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options,
-                        Progress& progress);
+                        const Progress& progress);
 
 }  // namespace cbc3d::metrics

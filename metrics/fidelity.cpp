@@ -36,7 +36,7 @@ std::vector<Vec3> positions(const std::vector<VertexId>& vertices, const std::ve
 class FidelityMeasurer {
  public:
   FidelityMeasurer(const MeshView& view, const LabelImage& image, const Surface& surface,
-                   const FidelityOptions& options, Progress& progress)
+                   const FidelityOptions& options, const Progress& progress)
       : view_(view), image_(image), surface_(surface), options_(options), progress_(progress) {
     // Labels that the image has not count as background, as the outside does.
     material_of_.assign(view.labels().size(), kBackground);
@@ -204,7 +204,7 @@ class FidelityMeasurer {
   const LabelImage& image_;
   const Surface& surface_;
   const FidelityOptions& options_;
-  Progress& progress_;
+  const Progress& progress_;
   std::vector<MaterialId> material_of_;  // by index into MeshView::labels()
   std::vector<double> volumes_;
   std::vector<Overlap> overlaps_;
@@ -342,7 +342,7 @@ struct Totals {
 }  // namespace
 
 Fidelity fidelity(const MeshView& view, const LabelImage& image, const Surface& surface,
-                  const FidelityOptions& options, Progress& progress) {
+                  const FidelityOptions& options, const Progress& progress) {
   return FidelityMeasurer(view, image, surface, options, progress).measure();
 }
 

@@ -59,7 +59,7 @@ struct Fidelity {
 /// Time n log n in voxel faces and facets; memory that of the surfaces of one label beside the image's
 /// boundary.
 Fidelity fidelity(const MeshView& view, const LabelImage& image, const Surface& surface,
-                  const FidelityOptions& options, Progress& progress);
+                  const FidelityOptions& options, const Progress& progress);
 
 /// Keys: hausdorff_mm, image_to_mesh_mm, mesh_to_image_mm (the paper's); to the voxel faces
 /// surface_hausdorff_mm, mean_distance_mm, rms_distance_mm, hd95_mm (over the samples) and

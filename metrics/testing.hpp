@@ -136,7 +136,7 @@ inline std::vector<Triangle> sphere_triangles(double radius, int n) {
 }
 
 inline nlohmann::json judge(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options = {}) {
-  Progress quiet(true);
+  Progress quiet;
   return evaluate(mesh, image, options, quiet);
 }
 

@@ -14,7 +14,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 
 namespace cbc3d::baselines {
 
@@ -162,7 +162,7 @@ Mesh timed_run(const MesherProgram& program, const LabelImage& image, const Para
 
 void mesh_the_image(const MesherProgram& program, Request& request, const ParameterValues& values,
                     Outcome& outcome) {
-  Progress progress(request.quiet);
+  TerminalProgress progress(request.quiet);
   request.job.threads = set_thread_count(request.job.threads);
   program.check(values);
   require_writable_mesh_path(request.job.mesh);

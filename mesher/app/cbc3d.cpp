@@ -5,6 +5,7 @@
 
 #include "mesher/app/clean_command.hpp"
 #include "mesher/app/deform_command.hpp"
+#include "mesher/app/flag_names.hpp"
 #include "mesher/app/improve_command.hpp"
 #include "mesher/app/mesh_command.hpp"
 #include "mesher/app/segment_command.hpp"
@@ -37,13 +38,13 @@ int main(int argc, char** argv) {
     std::cerr << "cbc3d: " << error.what() << " (see --help)\n";
     return cbc3d::kExitBadInput;
   } catch (const cbc3d::InputError& error) {
-    std::cerr << "cbc3d: " << error.what() << '\n';
+    std::cerr << "cbc3d: " << cbc3d::with_flags(error.what()) << '\n';
     return cbc3d::kExitBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "cbc3d: out of memory; use a larger --lattice-spacing or a machine with more memory\n";
     return cbc3d::kExitJobFailed;
   } catch (const std::exception& error) {
-    std::cerr << "cbc3d: " << error.what() << '\n';
+    std::cerr << "cbc3d: " << cbc3d::with_flags(error.what()) << '\n';
     return cbc3d::kExitJobFailed;
   }
   return exit_code;

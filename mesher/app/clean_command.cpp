@@ -7,7 +7,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 
 namespace cbc3d {
 namespace {
@@ -27,7 +27,7 @@ void run(const CleanCommand& command) {
   if (!command.report_file.empty()) {
     require_writable(command.report_file);
   }
-  Progress progress(command.quiet);
+  TerminalProgress progress(command.quiet);
   progress.step("reading " + command.image, 0);
   LabelImage image = read_label_image(command.image);
   MeshImageOptions options;

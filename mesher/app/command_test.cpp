@@ -92,6 +92,16 @@ TEST_F(Command, RefusesBadInputWithOneLine) {
   expect_refusal("mush", "--help");
 }
 
+TEST_F(Command, WarningsNameFlags) {
+  const Outcome outcome =
+      run("mesh " + at("ball.nii.gz") + " --topology-checks --no-manifold-voxels --quiet " +
+          "--preset paper --out " + at("m.vtu") + " --report " + at("r.json"));
+  const std::string says = "--topology-checks with --no-manifold-voxels: contacts";
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
+  EXPECT_NE(bytes_of(at("r.json")).find(says), std::string::npos);
+}
+
 std::string nrrd(const std::string& fields, const std::string& data) {
   return "NRRD0004\nendian: little\nencoding: raw\n" + fields + "\n" + data;
 }

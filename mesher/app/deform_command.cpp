@@ -10,8 +10,8 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/core/progress.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
@@ -58,7 +58,7 @@ void run(const DeformCommand& command) {
   if (!command.report_file.empty()) {
     require_writable(command.report_file);
   }
-  Progress progress(command.quiet);
+  TerminalProgress progress(command.quiet);
   progress.step("reading " + command.mesh, 0);
   const LabelImage image = read_label_image(command.image);
   const MeshImageOptions options = options_of(command, image);

@@ -11,8 +11,8 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/core/progress.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "mesher/domain/mesh_boundary.hpp"
 #include "mesher/improve/improve_mesh.hpp"
 #include "mesher/topology/labelled_tets.hpp"
@@ -175,7 +175,7 @@ void run(ImproveCommand command) {
   if (!command.report_file.empty()) {
     require_writable(command.report_file);
   }
-  Progress progress(command.quiet);
+  TerminalProgress progress(command.quiet);
   progress.step("reading " + command.mesh, 0);
   Subject subject = read(command);
   const std::size_t materials = subject.image.labels.size();

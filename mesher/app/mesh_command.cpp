@@ -5,6 +5,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "mesher/app/flag_names.hpp"
 #include "mesher/app/label_values.hpp"
 #include "mesher/app/material_options.hpp"
 #include "mesher/app/mesh_report.hpp"
@@ -13,6 +14,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
 
@@ -46,7 +48,7 @@ void run(MeshCommand& command) {
   if (!command.report_file.empty()) {
     require_writable(command.report_file);
   }
-  Progress progress(command.quiet);
+  TerminalProgress progress(command.quiet);
   progress.step("reading " + command.image, 0);
   const Stopwatch reading;
   LabelImage image = read_label_image(command.image);
@@ -72,6 +74,9 @@ void run(MeshCommand& command) {
   apply_material_options(command.materials, image, options.deform.elasticity);
   MeshImageReport report;
   const Mesh mesh = mesh_image(std::move(image), options, progress, report);
+  for (std::string& warning : report.warnings) {
+    warning = with_flags(warning);
+  }
   if (mesh.cell_count() == 0) {
     throw JobError("the mesh of '" + command.image +
                    "' is empty: no label is larger than the lattice; give a smaller --lattice-spacing");
@@ -97,7 +102,7 @@ void run_reporting(MeshCommand& command) {
     write_failure(command, "out_of_memory", "out of memory");
     throw;
   } catch (const JobError& error) {
-    write_failure(command, "failed", error.what());
+    write_failure(command, "failed", with_flags(error.what()));
     throw;
   }
 }

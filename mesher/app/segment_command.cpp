@@ -6,6 +6,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "mesher/segment/segment_image.hpp"
 
 namespace cbc3d {
@@ -70,7 +71,7 @@ void run(SegmentCommand command) {
   command.options.seeds_mm = positions(command.seeds, "--seeds");
   command.options.targets_mm = positions(command.targets, "--targets");
   command.options.stop = command.stop == "all" ? FrontStop::all_targets : FrontStop::first_target;
-  Progress progress(command.quiet);
+  TerminalProgress progress(command.quiet);
   SegmentReport report;
   LabelImage segmented = segment_image(command.image, command.options, progress, report);
   progress.step("writing " + command.out, 0.9);

@@ -12,7 +12,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 
 namespace cbc3d {
 namespace {
@@ -176,7 +176,7 @@ void require_good(const TileCommand& command) {
 /// Holds one slice at a time.
 void run(const TileCommand& command) {
   require_good(command);
-  Progress progress(command.quiet);
+  TerminalProgress progress(command.quiet);
   Slice first;
   AtomicFile file(command.out);
   std::ofstream out(file.temporary(), std::ios::binary);

@@ -7,22 +7,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 #include <fstream>
-#include <functional>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <sstream>
-#include <unordered_map>
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/frame_check.hpp"
 #include "mesher/core/inrimage.hpp"
+#include "mesher/core/label_classifier.hpp"
 #include "mesher/core/mapped_voxels.hpp"
 #include "mesher/core/packed_voxels.hpp"
-#include "mesher/core/voxel_rows.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -30,8 +24,13 @@ namespace {
 
 using Component = itk::ImageIOBase::IOComponentType;
 
+/// What a message begins with.
+std::string subject_of(const fs::path& path) {
+  return "cannot read '" + path.string() + "'";
+}
+
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  throw InputError("cannot read '" + path.string() + "': " + what);
+  throw InputError(subject_of(path) + ": " + what);
 }
 
 /// The one line of an ITK exception that says something.
@@ -117,183 +116,16 @@ ImageFrame frame_of(const itk::ImageIOBase& io, const fs::path& path) {
       frame.direction(row, axis) = io.GetDirection(axis)[row];
     }
   }
-  if (!(frame.spacing_mm.min_coeff() > 0) || !frame.spacing_mm.all_finite() ||
-      !frame.origin_mm.all_finite()) {
-    fail(path, "its spacing or origin is not a positive finite number; repair its header");
-  }
+  require_usable_frame(frame, subject_of(path));
   return frame;
 }
-
-/// Directions from text headers are rounded; anything beyond rounding is shear, which no orthogonal frame
-/// expresses.
-void orthonormalise(ImageFrame& frame, const fs::path& path) {
-  const Mat3 product = frame.direction.transposed() * frame.direction;
-  double shear = 0;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      shear = std::fmax(shear, std::abs(product(row, column) - (row == column ? 1 : 0)));
-    }
-  }
-  if (!std::isfinite(shear) || shear > 1e-3) {
-    fail(path, "its direction matrix is sheared or singular; resample it to an orthogonal grid");
-  }
-  if (product == Mat3::identity()) {
-    return;  // a signed permutation is exact already
-  }
-  const Vec3 x = frame.direction.column(0).normalized();
-  const Vec3 second = frame.direction.column(1);
-  const Vec3 y = (second - x * x.dot(second)).normalized();
-  const Vec3 z = x.cross(y);
-  frame.direction = Mat3::from_columns(x, y, frame.left_handed() ? -z : z);
-}
-
-/// Value -> material, in two steps: collect the distinct values, then look each voxel up.
-template <typename T>
-class Classifier {
- public:
-  Classifier(const T* values, std::size_t count, const fs::path& path)
-      : values_(values), count_(count), path_(path) {}
-
-  /// Finds the labels.
-  void find_labels(LabelImage& image) {
-    collect();
-    assign_labels(image);
-    labels_ = image.labels.size();
-  }
-
-  /// True when every value is one byte and the number of its material: the bytes can stay as they are.
-  [[nodiscard]] bool values_are_materials() const {
-    return sizeof(T) == 1 && std::all_of(material_.begin(), material_.end(), [](const auto& known) {
-             return known.first == static_cast<T>(known.second) && known.first >= T{};
-           });
-  }
-
-  [[nodiscard]] LabelVoxels voxels() const {
-    LabelVoxels voxels = LabelVoxels::unwritten(count_, labels_);
-    voxels.visit([this](auto* to) { this->look_up(to); });
-    return voxels;
-  }
-
-  /// Writes the material of every voxel to `to`; values of one byte may be there themselves.
-  template <typename Voxel>
-  void look_up(Voxel* to) const {
-#pragma omp parallel
-    {
-      T last = T{};
-      auto material = static_cast<Voxel>(material_.at(T{}));
-#pragma omp for
-      for (std::size_t v = 0; v < count_; ++v) {
-        if (values_[v] != last) {
-          last = values_[v];
-          material = static_cast<Voxel>(material_.at(last));
-        }
-        to[v] = material;
-      }
-    }
-  }
-
- private:
-  void collect() {
-    material_[T{}] = kBackground;
-    if constexpr (sizeof(T) == 1) {
-      collect_bytes();
-    } else {
-      collect_values();
-    }
-    if (material_.size() > kMostLabels) {
-      fail(path_, "it has more than 65536 different values; give a label image, not a grey one");
-    }
-  }
-
-  /// The same with a table of all values, run by run.
-  void collect_bytes() {
-    constexpr std::size_t kPiece = std::size_t{1} << 20U;
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values_);
-    std::array<bool, 256> present{};
-#pragma omp parallel
-    {
-      std::array<bool, 256> mine{};
-#pragma omp for nowait
-      for (std::size_t begin = 0; begin < count_; begin += kPiece) {
-        const auto length = static_cast<int>(std::min(kPiece, count_ - begin));
-        for (int i = 0; i < length; i = end_of_run(bytes + begin, i, length)) {
-          mine[bytes[begin + static_cast<std::size_t>(i)]] = true;
-        }
-      }
-#pragma omp critical(cbc3d_classifier)
-      std::transform(mine.begin(), mine.end(), present.begin(), present.begin(), std::logical_or<>());
-    }
-    for (std::size_t byte = 0; byte < present.size(); ++byte) {
-      if (present[byte]) {
-        material_.emplace(static_cast<T>(byte), kBackground);
-      }
-    }
-  }
-
-  void collect_values() {
-#pragma omp parallel
-    {
-      std::unordered_map<T, MaterialId> mine;
-      T last = T{};
-#pragma omp for nowait
-      for (std::size_t v = 0; v < count_; ++v) {
-        if (values_[v] != last) {
-          last = values_[v];
-          if (mine.size() <= kMostLabels) {
-            mine.emplace(last, kBackground);
-          }
-        }
-      }
-#pragma omp critical(cbc3d_classifier)
-      material_.insert(mine.begin(), mine.end());
-    }
-  }
-
-  void assign_labels(LabelImage& image) {
-    std::vector<T> distinct;
-    for (const auto& [value, material] : material_) {
-      require_label(value);
-      if (value != T{}) {
-        distinct.push_back(value);
-      }
-    }
-    std::sort(distinct.begin(), distinct.end());
-    image.labels.assign(1, 0);
-    for (const T value : distinct) {
-      material_[value] = static_cast<MaterialId>(image.labels.size());
-      image.labels.push_back(static_cast<Label>(value));
-    }
-  }
-
-  void require_label(T value) const {
-    std::ostringstream text;
-    text << +value;
-    if constexpr (std::is_floating_point_v<T>) {
-      if (!std::isfinite(value) || value != std::floor(value)) {
-        fail(path_, "it has the fractional value " + text.str() +
-                        "; give integer labels (threshold or round it first)");
-      }
-    }
-    if (static_cast<long double>(value) > std::numeric_limits<Label>::max() ||
-        static_cast<long double>(value) < std::numeric_limits<Label>::min()) {
-      fail(path_, "its label " + text.str() + " does not fit 32 bits; renumber the labels");
-    }
-  }
-
-  static constexpr std::size_t kMostLabels = 65536;
-  const T* values_;
-  std::size_t count_;
-  const fs::path& path_;
-  std::unordered_map<T, MaterialId> material_;
-  std::size_t labels_ = 1;
-};
 
 /// The bytes of a file that are one each stay where they are: a mapped file where they are materials already,
 /// and those in memory always.
 template <typename T>
 void classify(FileVoxels voxels, LabelImage& image, const fs::path& path) {
   const std::size_t count = image.frame.voxel_count();
-  Classifier<T> classifier(static_cast<const T*>(data_of(voxels)), count, path);
+  Classifier<T> classifier(static_cast<const T*>(data_of(voxels)), count, subject_of(path));
   classifier.find_labels(image);
   if constexpr (sizeof(T) == 1) {
     const bool in_memory = std::holds_alternative<VoxelBytes>(voxels);
@@ -376,7 +208,6 @@ LabelImage read_with_itk(const fs::path& path) {
   require_plausible_size(*io, path);
   LabelImage image;
   image.frame = frame_of(*io, path);
-  orthonormalise(image.frame, path);
   classify_component(io->GetComponentType(), voxels_of_file(*io, path), image, path);
   return image;
 }

@@ -1,34 +1,37 @@
-// Progress of long work on standard error: a bar on a terminal, plain lines elsewhere, nothing when quiet.
+// Progress of long work: what the library reports as it goes on, and how its caller ends it early.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
-#include "mesher/core/runtime.hpp"
+#include "mesher/core/error.hpp"
 
 namespace cbc3d {
 
+/// Is called when a step of the work begins: `stage` names the step, `fraction` in [0,1] is the share of the
+/// whole work that is done. Returns whether the work shall go on; after false it ends by throwing Cancelled.
+/// It is called in the thread that called the work, never inside a parallel region.
+using ProgressObserver = std::function<bool(std::string_view stage, double fraction)>;
+
+/// The library's side of an observer. TerminalProgress is one that draws a bar.
 class Progress {
  public:
-  /// `quiet`: print nothing at all.
-  explicit Progress(bool quiet = false);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  /// Nothing observes the work.
+  Progress() = default;
+  /// An empty `observer` is none.
+  explicit Progress(ProgressObserver observer) : observer_(std::move(observer)) {}
 
-  /// Announces the step now begun; `fraction` in [0,1] is the share of the whole work that is done.
-  void step(std::string_view name, double fraction);
-  /// A line that stays (a warning, say), printed even when quiet if `important`.
-  void line(std::string_view text, bool important = false);
-  /// Ends the bar.
-  void done();
+  /// Announces the step that begins now. Throws Cancelled when the observer returns false.
+  void step(std::string_view stage, double fraction) const {
+    if (observer_ && !observer_(stage, fraction)) {
+      throw Cancelled("cancelled before the step '" + std::string(stage) + "'");
+    }
+  }
 
  private:
-  void clear_bar() const;
-  bool quiet_;
-  bool terminal_;
-  bool bar_shown_ = false;
-  Stopwatch watch_;
+  ProgressObserver observer_;
 };
 
 }  // namespace cbc3d

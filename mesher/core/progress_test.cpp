@@ -1,47 +1,38 @@
-// Progress on a stream that is no terminal.
+#include "mesher/core/progress.hpp"
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <string>
+#include <vector>
 
-#include "mesher/core/progress.hpp"
 
 namespace cbc3d {
 namespace {
 
-template <typename Work>
-std::string printed(bool quiet, const Work& work) {
-  ::testing::internal::CaptureStderr();
-  {
-    Progress progress(quiet);
-    work(progress);
-  }
-  return ::testing::internal::GetCapturedStderr();
+TEST(Progress, WithoutObserverNothingHappens) {
+  EXPECT_NO_THROW(Progress().step("a", 0));
+  EXPECT_NO_THROW(Progress(ProgressObserver{}).step("a", 0));
 }
 
-TEST(Progress, StepsArePlainLinesWithTheShareDone) {
-  const std::string text = printed(false, [](Progress& p) {
-    p.step("first", 0.5);
-    p.step("second", 1.7);
-    p.step("third", -1);
-    p.done();
+TEST(Progress, TheObserverGetsStageAndFraction) {
+  std::vector<std::pair<std::string, double>> seen;
+  const Progress progress([&](std::string_view stage, double fraction) {
+    seen.emplace_back(stage, fraction);
+    return true;
   });
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
-  EXPECT_EQ(text.find('\r'), std::string::npos);
-  EXPECT_NE(text.find(" 50 % first"), std::string::npos) << text;
-  EXPECT_NE(text.find("100 % second"), std::string::npos) << text;
-  EXPECT_NE(text.find("  0 % third"), std::string::npos) << text;
+  progress.step("a", 0.25);
+  progress.step("b", 1);
+  EXPECT_EQ(seen, (std::vector<std::pair<std::string, double>>{{"a", 0.25}, {"b", 1}}));
 }
 
-TEST(Progress, QuietPrintsWhatIsImportantAlone) {
-  EXPECT_EQ(printed(true,
-                    [](Progress& p) {
-                      p.step("first", 0.5);
-                      p.line("a remark");
-                      p.line("a warning", true);
-                    }),
-            "a warning\n");
-  EXPECT_EQ(printed(false, [](Progress& p) { p.line("a remark"); }), "a remark\n");
+TEST(Progress, FalseCancelsAndNamesTheStep) {
+  const Progress progress([](std::string_view stage, double) { return stage != "b"; });
+  EXPECT_NO_THROW(progress.step("a", 0));
+  try {
+    progress.step("b", 0.5);
+    FAIL();
+  } catch (const Cancelled& cancelled) {
+    EXPECT_STREQ(cancelled.what(), "cancelled before the step 'b'");
+  }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ TargetRows::TargetRows(const TargetPoints& targets, const ImageFrame& frame)
     : targets_(targets), frame_(frame), x_(static_cast<std::size_t>(frame.size[0])) {
   if (targets.targets.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw JobError("the image has " + std::to_string(targets.targets.size()) +
-                   " target points, more than can be numbered; --connectivity vertex takes fewer");
+                   " target points, more than can be numbered; connectivity vertex takes fewer");
   }
   for (int i = 0; i < frame.size[0]; ++i) {
     x_[static_cast<std::size_t>(i)] = i * frame.spacing_mm.x;

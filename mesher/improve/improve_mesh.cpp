@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "mesher/core/progress.hpp"
+#include "mesher/core/stage_clock.hpp"
 #include "mesher/improve/local/edge_collapse.hpp"
 #include "mesher/improve/local/edge_removal.hpp"
 #include "mesher/improve/local/edge_split.hpp"

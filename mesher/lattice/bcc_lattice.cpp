@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include "mesher/core/error.hpp"
@@ -90,9 +91,10 @@ Grid make_grid(const LabelImage& image, const BccLatticeOptions& options) {
     centre[axis] = 0.5 * (box.high[axis] + box.low[axis]) * image.frame.spacing_mm[d];
     const double needed = std::ceil(extent / options.spacing_mm) + 4;
     if (needed * 2 >= static_cast<double>(1 << kCoordinateBits)) {
-      throw InputError("--lattice-spacing " + std::to_string(options.spacing_mm) +
-                       " mm is too small for this image; give at least " + std::to_string(extent / 1e5) +
-                       " mm");
+      std::ostringstream text;
+      text << "lattice_spacing_mm " << options.spacing_mm << " is too small for this image; give at least "
+           << extent / 1e5 << " mm";
+      throw InputError(text.str(), "lattice_spacing_mm");
     }
     grid.cells[axis] = static_cast<int>(needed);
     most_cells = std::max(most_cells, grid.cells[axis]);

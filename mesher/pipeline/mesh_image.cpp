@@ -12,10 +12,10 @@
 namespace cbc3d {
 namespace {
 
-/// Times the stages, tells of them, and dumps their meshes when asked to.
+/// Times the stages, announces them, and writes their meshes to files where that is asked for.
 class StageLog {
  public:
-  StageLog(const LabelImage& image, const MeshImageOptions& options, Progress& progress,
+  StageLog(const LabelImage& image, const MeshImageOptions& options, const Progress& progress,
            MeshImageReport& report)
       : image_(image), options_(options), progress_(progress), report_(report) {}
 
@@ -44,7 +44,7 @@ class StageLog {
  private:
   const LabelImage& image_;
   const MeshImageOptions& options_;
-  Progress& progress_;
+  const Progress& progress_;
   MeshImageReport& report_;
   StageClock clock_;
 };
@@ -113,7 +113,7 @@ void warn_of_losses(const LabelImage& image, const MaterialMesh& mesh, MeshImage
                                          std::to_string(label);
       report.warnings.push_back(
           what + " (" + std::to_string(loss.lost_voxels) +
-          " voxels) not in the mesh; a smaller --lattice-spacing or --max-distance keeps more");
+          " voxels) not in the mesh; a smaller lattice_spacing_mm or max_distance_mm keeps more");
     }
   }
 }
@@ -122,13 +122,13 @@ void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
   if (clean.removed.regions_removed > 0) {
     report.warnings.push_back(std::to_string(clean.removed.regions_removed) + " regions (" +
                               std::to_string(clean.removed.voxels_removed) +
-                              " voxels) below --region-tolerance became background");
+                              " voxels) below region_tolerance became background");
   }
   for (const LabelChange& change : clean.labels) {
     if (change.voxels_before > 0 && change.voxels_after == 0) {
       report.warnings.push_back("label " + std::to_string(change.label) + " (" +
                                 std::to_string(change.voxels_before) +
-                                " voxels) vanished in the cleaning; --relabel-noise none keeps it");
+                                " voxels) vanished in the cleaning; relabel_noise none keeps it");
     }
   }
 }
@@ -136,21 +136,20 @@ void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
 void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) {
   if (!options.clean.manifold_voxels && options.topology.image_passes == 0) {
     report.warnings.emplace_back(
-        "--topology-checks with --no-manifold-voxels: contacts of voxels by an edge or a vertex are left to "
-        "the mesh, which "
-        "will cut or join them");
+        "topology_checks with manifold_voxels off: contacts of voxels by an edge or a vertex are left to the "
+        "mesh, which will cut or join them");
   }
   for (const LabelTopology& t : report.topology.labels) {
     if (t.components != t.image_regions) {
       report.warnings.push_back("label " + std::to_string(t.label) + " has " +
                                 std::to_string(t.image_regions) +
                                 " face-connected regions in the cleaned image and " +
-                                std::to_string(t.components) + " in the mesh (places: --report)");
+                                std::to_string(t.components) + " in the mesh (the report has their places)");
     }
   }
   if (report.topology.non_manifold_vertices_left > 0) {
     report.warnings.push_back(std::to_string(report.topology.non_manifold_vertices_left) +
-                              " vertices are left where a label's surface is no manifold");
+                              " vertices are left where a label's surface is non-manifold");
   }
 }
 
@@ -165,7 +164,7 @@ void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
 
 /// From the clean image to the mesh in local mm.
 MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& options, StageLog& log,
-                              Progress& progress, MeshImageReport& report) {
+                              const Progress& progress, MeshImageReport& report) {
   Lattice lattice = log.run(
       "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
   if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
@@ -216,7 +215,7 @@ MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& o
     if (report.deform.stopped_early) {
       report.warnings.push_back("the deformation stopped in iteration " +
                                 std::to_string(report.deform.iterations.size()) +
-                                ": elements stay below the minimum quality; --on-failure recover goes on");
+                                ": elements stay below the minimum quality; on_failure recover goes on");
     }
   }
   if (options.improve.enabled && !options.mixed) {
@@ -249,7 +248,7 @@ MeshImageOptions with_tolerance(MeshImageOptions options, const Tolerance& toler
 
 }  // namespace
 
-Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progress& progress,
                 MeshImageReport& report) {
   StageLog log(image, options, progress, report);
 

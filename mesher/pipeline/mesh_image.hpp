@@ -2,10 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
@@ -63,7 +61,7 @@ struct MeshImageReport {
 /// Meshes `image` (which is cleaned in place, so hand it over if it is not needed any more); the mesh is in
 /// physical space and carries the image's label values. Throws InputError for options out of range. The same
 /// bytes come out at any thread count.
-Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& progress,
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progress& progress,
                 MeshImageReport& report);
 
 }  // namespace cbc3d

@@ -19,7 +19,7 @@ namespace cbc3d {
 namespace {
 
 Mesh mesh_of(const LabelImage& image, const MeshImageOptions& options, MeshImageReport& report) {
-  Progress quiet(true);
+  Progress quiet;
   return mesh_image(image, options, quiet, report);
 }
 
@@ -292,7 +292,7 @@ TEST(MeshImage, WarnsOfTopologyChecksWithoutVoxelCleaning) {
   options.topology.enabled = true;
   options.clean.manifold_voxels = false;
   MeshImageReport report;
-  Progress quiet(true);
+  Progress quiet;
   mesh_image(image, options, quiet, report);
   EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
     return w.find("--no-manifold-voxels") != std::string::npos;

@@ -64,7 +64,7 @@ MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame
   if (name == "paper") {
     return options;
   }
-  throw InputError("--preset " + name + ": unknown; give quality or paper");
+  throw InputError("preset '" + name + "' is unknown; give quality or paper", "preset");
 }
 
 }  // namespace cbc3d

@@ -26,7 +26,7 @@ using testing::touching_balls;
 Mesh mesh_of(const LabelImage& image, bool improve, MeshImageReport& report) {
   MeshImageOptions options = preset_options("quality", image.frame);
   options.improve.enabled = improve;
-  Progress quiet(true);
+  Progress quiet;
   return mesh_image(image, options, quiet, report);
 }
 Mesh mesh_of(const LabelImage& image, bool improve = true) {

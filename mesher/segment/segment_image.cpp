@@ -324,8 +324,9 @@ LabelImage label_of(const Grey& level_set, const Mask::RegionType& box, const Im
 void require_usable(const Levels& levels) {
   if (!(levels.edge_gradient > levels.noise_gradient) || levels.inside == levels.outside) {
     throw InputError("no wall is found around the seeds (gradient " + std::to_string(levels.edge_gradient) +
-                     " a mm there, " + std::to_string(levels.noise_gradient) +
-                     " elsewhere); move them, or give --edge-gradient and --contrast");
+                         " a mm there, " + std::to_string(levels.noise_gradient) +
+                         " elsewhere); move them, or give edge_gradient and contrast",
+                     "edge_gradient");
   }
 }
 
@@ -356,7 +357,7 @@ Levels levels_of(const Smoothed& smoothed, const std::vector<Grey::IndexType>& s
 
 }  // namespace
 
-LabelImage segment_image(const fs::path& grey_image, const SegmentOptions& options, Progress& progress,
+LabelImage segment_image(const fs::path& grey_image, const SegmentOptions& options, const Progress& progress,
                          SegmentReport& report) {
   progress.step("reading " + grey_image.string(), 0);
   const auto image = read_grey(grey_image);

@@ -40,6 +40,6 @@ struct SegmentReport {
 /// (V. Caselles et al. 1997), whose inside is the result. Throws InputError for an image that cannot be read
 /// or is not 3-D, seeds or targets outside it or absent, and seeds around which there is no edge.
 LabelImage segment_image(const std::filesystem::path& grey_image, const SegmentOptions& options,
-                         Progress& progress, SegmentReport& report);
+                         const Progress& progress, SegmentReport& report);
 
 }  // namespace cbc3d

@@ -32,7 +32,7 @@ class SegmentImage : public ::testing::Test {
     SegmentOptions options;
     options.seeds_mm = {frame.to_physical(vessel.middle(8))};
     options.targets_mm = {frame.to_physical(vessel.middle(52))};
-    Progress quiet(true);
+    Progress quiet;
     const LabelImage found = segment_image(folder_.file("grey.nrrd"), options, quiet, report_);
     EXPECT_EQ(found.frame.size, frame.size);
     EXPECT_LT((found.frame.origin_mm - frame.origin_mm).norm(), 1e-6);
@@ -70,7 +70,7 @@ TEST_F(SegmentImage, RoundSacFromItsMiddleAndItsWall) {
   SegmentOptions options;
   options.seeds_mm = {middle};
   options.targets_mm = {middle + Vec3{0, 13, 0}};
-  Progress quiet(true);
+  Progress quiet;
   EXPECT_GE(dice(segment_image(folder_.file("sac.nrrd"), options, quiet, report_), truth), .95);
 }
 
@@ -82,7 +82,7 @@ TEST_F(SegmentImage, RefusesWhatCannotWork) {
         return Vessel{22, 22, 5}.distance(p);
       },
       200, 10);
-  Progress quiet(true);
+  Progress quiet;
   SegmentOptions options;
   options.targets_mm = {{22, 22, 30}};
   EXPECT_THROW(segment_image(folder_.file("grey.nrrd"), options, quiet, report_), InputError);

@@ -208,7 +208,7 @@ std::vector<Figure> result_figures(const std::vector<Json>& results) {
 }
 
 void write_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder,
-                   Progress& progress) {
+                   TerminalProgress& progress) {
   constexpr double kTimeoutS = 60;
   std::filesystem::create_directories(folder);
   bool convert = true;

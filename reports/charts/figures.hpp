@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "reports/results/result.hpp"
 
 namespace cbc3d::reports {
@@ -25,6 +25,6 @@ std::vector<Figure> result_figures(const std::vector<Json>& results);
 /// Writes each figure as NAME.svg into `folder`, which is made, and as NAME.png where rsvg-convert is there;
 /// one line says so where it is not.
 void write_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder,
-                   Progress& progress);
+                   TerminalProgress& progress);
 
 }  // namespace cbc3d::reports

@@ -89,7 +89,7 @@ std::string failure_text(const ChildResult& child) {
 }  // namespace
 
 int draw_pictures(const fs::path& out_dir, const std::vector<Json>& results, const fs::path& bin_dir,
-                  Progress& progress) {
+                  TerminalProgress& progress) {
   if (!fs::exists(bin_dir / "cbc3d-picture")) {
     progress.line("no pictures: cbc3d-picture is not built; install VTK's rendering modules and build again");
     return 0;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "reports/results/result.hpp"
 
 namespace cbc3d::reports {
@@ -13,6 +13,6 @@ namespace cbc3d::reports {
 /// process under a virtual X server and a time limit. Where drawing is not possible, one line says so, and
 /// nothing else happens. Returns the number of pictures drawn.
 int draw_pictures(const std::filesystem::path& out_dir, const std::vector<Json>& results,
-                  const std::filesystem::path& bin_dir, Progress& progress);
+                  const std::filesystem::path& bin_dir, TerminalProgress& progress);
 
 }  // namespace cbc3d::reports

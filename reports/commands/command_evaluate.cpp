@@ -8,8 +8,8 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/core/progress.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "metrics/evaluate.hpp"
 #include "reports/commands/commands.hpp"
 
@@ -84,7 +84,7 @@ int evaluate(const EvaluateCommandOptions& options) {
   set_thread_count(options.threads);
   metrics::EvaluateOptions judged = options.metrics;
   judged.shapes = shapes_of(options);
-  Progress progress(options.quiet);
+  TerminalProgress progress(options.quiet);
   progress.step("reading", 0);
   const Mesh mesh = read_mesh(options.mesh);
   const LabelImage image = read_label_image(options.image);

@@ -39,7 +39,7 @@ int write_report(const ReportOptions& options) {
   }
   report.figures = all_figures(folder, report.results);
   report.picture_dir = folder / "figures" / "small";
-  Progress progress(options.quiet);
+  TerminalProgress progress(options.quiet);
   if (options.pictures && !std::filesystem::exists(report.picture_dir)) {
     draw_pictures(folder, report.results, bin_dir(), progress);
   }

@@ -25,7 +25,7 @@ int run(RunCommandOptions options) {
   options.run.parameters = parse_settings(options.selection);
   options.run.shard = parse_shard(options.shard);
   const Bench bench = make_bench(options.selection, options.run.out_dir);
-  Progress progress(options.output.quiet);
+  TerminalProgress progress(options.output.quiet);
   const std::vector<Json> results = run_jobs(bench, options.run, progress);
   write_output(options.run.out_dir, results, cases_of(options.selection.manifests), bench.bin_dir,
                options.output, progress);

@@ -28,7 +28,7 @@ int sweep(SweepOptions options) {
   options.run.parameters = parse_settings(options.selection);
   const Json microbenchmarks = read_microbenchmarks(options.microbenchmarks);  // complains before the work
   const Bench bench = make_bench(options.selection, options.run.out_dir);
-  Progress progress(options.output.quiet);
+  TerminalProgress progress(options.output.quiet);
   const std::vector<Json> results = run_jobs(bench, options.run, progress);
   write_text_file(options.run.out_dir / "sweep.json", to_json(sweep_points(results)).dump(1) + "\n");
   if (!options.microbenchmarks.empty()) {

@@ -22,7 +22,7 @@ int write_again(const TablesOptions& options) {
   if (results.empty()) {
     throw InputError("'" + file.string() + "': no results; name the --out folder of a run");
   }
-  Progress progress(options.output.quiet);
+  TerminalProgress progress(options.output.quiet);
   write_output(options.folder, results, cases::load_cases(manifest_dir()), bin_dir(), options.output,
                progress);
   return kExitSuccess;

@@ -41,7 +41,7 @@ std::vector<Figure> all_figures(const std::filesystem::path& folder, const std::
 
 void write_output(const std::filesystem::path& folder, const std::vector<Json>& results,
                   const std::vector<cases::Case>& cases, const std::filesystem::path& bin_dir,
-                  const OutputOptions& options, Progress& progress) {
+                  const OutputOptions& options, TerminalProgress& progress) {
   const std::vector<Table> tables = all_tables(folder, results, cases);
   write_tables(tables, folder / "tables", options.formats);
   write_figures(all_figures(folder, results), folder / "figures", progress);

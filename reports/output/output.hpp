@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cases/core/case.hpp"
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "reports/charts/figures.hpp"
 #include "reports/results/result.hpp"
 #include "reports/tables/table.hpp"
@@ -30,6 +30,6 @@ std::vector<Figure> all_figures(const std::filesystem::path& folder, const std::
 /// Writes `folder`/tables and `folder`/figures and prints the tables as Markdown to standard output.
 void write_output(const std::filesystem::path& folder, const std::vector<Json>& results,
                   const std::vector<cases::Case>& cases, const std::filesystem::path& bin_dir,
-                  const OutputOptions& options, Progress& progress);
+                  const OutputOptions& options, TerminalProgress& progress);
 
 }  // namespace cbc3d::reports

@@ -6,8 +6,8 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/core/progress.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "reports/picture/scene.hpp"
 
 namespace {
@@ -30,7 +30,7 @@ struct Kind {
 int draw(Options options) {
   options.picture.small_dir = options.small;
   cbc3d::set_thread_count(options.threads);
-  cbc3d::Progress progress(options.quiet);
+  cbc3d::TerminalProgress progress(options.quiet);
   progress.step("reading", 0);
   const cbc3d::Mesh mesh = cbc3d::read_mesh(options.mesh);
   const cbc3d::LabelImage image = cbc3d::read_label_image(options.image);

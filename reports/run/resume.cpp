@@ -58,7 +58,7 @@ Sorted sort_lines(const std::vector<Json>& lines, const std::map<std::string, Js
 }  // namespace
 
 std::vector<Json> lines_to_keep(const fs::path& file, const std::vector<Job>& jobs, const Bench& bench,
-                                const RunOptions& options, Progress& progress) {
+                                const RunOptions& options, TerminalProgress& progress) {
   drop_torn_line(file);
   const std::vector<Json> lines = read_results(file);
   if (!lines.empty() && !options.resume) {

@@ -14,6 +14,6 @@ namespace cbc3d::reports {
 /// when there are lines and `resume` is off, or a job's case, parameters or program changed and
 /// `rerun_changed` is off.
 std::vector<Json> lines_to_keep(const std::filesystem::path& file, const std::vector<Job>& jobs,
-                                const Bench& bench, const RunOptions& options, Progress& progress);
+                                const Bench& bench, const RunOptions& options, TerminalProgress& progress);
 
 }  // namespace cbc3d::reports

@@ -93,7 +93,7 @@ std::vector<Job> plan_jobs(const Bench& bench, const RunOptions& options) {
   return part;
 }
 
-std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, Progress& progress) {
+std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, TerminalProgress& progress) {
   const std::vector<Job> jobs = plan_jobs(bench, options);
   const fs::path file = options.out_dir / "results.jsonl";
   make_folders(options.out_dir);

@@ -11,7 +11,7 @@
 #include "baselines/core/adapter.hpp"
 #include "cases/core/case.hpp"
 #include "cases/manifest.hpp"
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "reports/results/result.hpp"
 
 namespace cbc3d::reports {
@@ -66,7 +66,7 @@ std::vector<Job> plan_jobs(const Bench& bench, const RunOptions& options);
 /// and the run goes on. Throws InputError when another runner has the folder, when the folder holds results
 /// and `resume` is off, or results of jobs whose case, parameters or program have changed since; JobError
 /// when a line cannot be written.
-std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, Progress& progress);
+std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, TerminalProgress& progress);
 
 /// "12 jobs: 10 ok, 1 crashed, 1 skipped".
 std::string summary_line(const std::vector<Json>& results);

@@ -63,7 +63,7 @@ class Runner : public testing::Test {
   std::filesystem::path image_ = folder_.path() / "box.nrrd";
   Bench bench_;
   RunOptions options_;
-  Progress progress_{true};
+  TerminalProgress progress_{true};
 };
 
 TEST_F(Runner, EveryKindOfEndIsALineAndTheRunGoesOn) {

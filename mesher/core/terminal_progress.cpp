@@ -1,32 +1,39 @@
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 namespace cbc3d {
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+TerminalProgress::TerminalProgress(bool quiet)
+    : Progress([this](std::string_view stage, double fraction) {
+        show(stage, fraction);
+        return true;
+      }),
+      quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO) == 1) {}
 
-Progress::~Progress() {
+TerminalProgress::~TerminalProgress() {
   done();
 }
 
-void Progress::clear_bar() const {
+void TerminalProgress::clear_bar() const {
   if (bar_shown_) {
     std::fputs("\r\033[K", stderr);
   }
 }
 
-void Progress::step(std::string_view name, double fraction) {
+void TerminalProgress::show(std::string_view stage, double fraction) {
   if (quiet_) {
     return;
   }
   const double share = std::clamp(fraction, 0.0, 1.0);
-  const int length = static_cast<int>(name.size());
+  const int length = static_cast<int>(stage.size());
   if (!terminal_) {
-    std::fprintf(stderr, "[%6.1f s] %3.0f %% %.*s\n", watch_.seconds(), 100 * share, length, name.data());
+    std::fprintf(stderr, "[%6.1f s] %3.0f %% %.*s\n", watch_.seconds(), 100 * share, length, stage.data());
     return;
   }
   constexpr int kWidth = 30;
@@ -34,12 +41,12 @@ void Progress::step(std::string_view name, double fraction) {
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(kWidth - filled), '.');
   std::fprintf(stderr, "\r\033[K[%s] %3.0f %% %6.1f s  %.*s", bar.c_str(), 100 * share, watch_.seconds(),
-               length, name.data());
+               length, stage.data());
   std::fflush(stderr);
   bar_shown_ = true;
 }
 
-void Progress::line(std::string_view text, bool important) {
+void TerminalProgress::line(std::string_view text, bool important) {
   if (quiet_ && !important) {
     return;
   }
@@ -48,7 +55,7 @@ void Progress::line(std::string_view text, bool important) {
   std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
 }
 
-void Progress::done() {
+void TerminalProgress::done() {
   clear_bar();
   bar_shown_ = false;
 }

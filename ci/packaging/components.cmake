@@ -1,0 +1,21 @@
+# The components of the library that others link, by the same names from a build as from an installation.
+add_library(cbc3d_mesher INTERFACE)
+target_link_libraries(cbc3d_mesher INTERFACE cbc3d_pipeline)
+foreach(component mesher metrics)
+  add_library(cbc3d::${component} ALIAS cbc3d_${component})
+endforeach()
+
+# Sets `result` to the rooms that `targets` link, directly or not, and themselves.
+function(cbc3d_rooms_below result)
+  set(rooms "")
+  set(open ${ARGN})
+  while(open)
+    list(POP_FRONT open target)
+    if(target MATCHES "^cbc3d_" AND NOT target IN_LIST rooms)
+      list(APPEND rooms ${target})
+      get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+      list(APPEND open ${links})
+    endif()
+  endwhile()
+  set(${result} ${rooms} PARENT_SCOPE)
+endfunction()
