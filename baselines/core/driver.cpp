@@ -219,10 +219,11 @@ Outcome attempt(const MesherProgram& program, Request& request, const ParameterV
 
 int run_mesher_program(const MesherProgram& program, int argc, char** argv) {
   const Adapter& adapter = program.adapter;
-  ParameterValues values(adapter.parameters);
+  const ParameterSpecs& specs = adapter.parameters.in({});
+  ParameterValues values(specs);
   Request request;
   CLI::App app(adapter.description + " (licence: " + adapter.licence + ")");
-  add_options(app, request, values, adapter.parameters);
+  add_options(app, request, values, specs);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

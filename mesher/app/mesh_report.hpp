@@ -11,7 +11,7 @@ namespace cbc3d {
 struct RunDescription {
   std::string preset;
   int threads = 0;           ///< in force
-  MeshImageOptions options;  ///< preset and overrides together
+  MeshImageOptions options;  ///< the preset's, with the user's settings in place of its own
   ImageFrame frame;          ///< of the image
   double reading_seconds = 0;
   double writing_seconds = 0;
@@ -19,9 +19,6 @@ struct RunDescription {
 
 /// What a cleaning changed: counts, and per label the voxels before and after and the change of volume.
 nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame);
-
-/// Options of the mixed elements and the deformation.
-nlohmann::json deformation_options_json(const MeshImageOptions& options);
 
 /// Points, parts' seconds and per-iteration figures of a deformation.
 nlohmann::json deformation_json(const DeformReport& deform);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
@@ -16,8 +17,8 @@ struct SegmentCommand {
   std::vector<std::string> seeds, targets;
   SegmentOptions options;
   Label label = 1;
-  int threads = 0;
-  bool overwrite = false, quiet = false;
+  bool overwrite = false;
+  CommonOptions common;
 };
 
 Vec3 position(const std::string& text, const char* option) {
@@ -62,7 +63,6 @@ void merge_into(LabelImage& labels, const LabelImage& segmented, Label label, bo
 }
 
 void run(SegmentCommand command) {
-  set_thread_count(command.threads);
   require_writable(command.out);
   if (command.label == 0) {
     throw InputError("--label 0 is the background; give another number");
@@ -70,7 +70,7 @@ void run(SegmentCommand command) {
   command.options.seeds_mm = positions(command.seeds, "--seeds");
   command.options.targets_mm = positions(command.targets, "--targets");
   command.options.stop = command.stop == "all" ? FrontStop::all_targets : FrontStop::first_target;
-  Progress progress(command.quiet);
+  Progress progress(command.common.quiet);
   SegmentReport report;
   LabelImage segmented = segment_image(command.image, command.options, progress, report);
   progress.step("writing " + command.out, 0.9);
@@ -131,13 +131,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   segment->add_flag("--overwrite", command->overwrite,
                     "with --merge: also where that image has a label [only its background]");
   add_tuning(*segment, command->options);
-  segment->add_option("--threads", command->threads, "threads of all pools [all cores]")
-      ->check(CLI::Range(0, 1024));
-  segment->add_flag("--quiet", command->quiet, "no progress");
-  segment->callback([command, &exit_code] {
-    run(*command);
-    exit_code = kExitSuccess;
-  });
+  complete_command(*segment, command->common, exit_code, [command] { run(*command); });
 }
 
 }  // namespace cbc3d

@@ -10,6 +10,7 @@
 #include <memory>
 #include <sstream>
 
+#include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/progress.hpp"
@@ -24,8 +25,7 @@ struct TileCommand {
   std::vector<std::string> slices;
   std::string out;
   std::vector<double> spacing_mm, origin_mm{0, 0, 0};
-  int threads = 0;
-  bool quiet = false;
+  CommonOptions common;
 };
 
 /// One slice: grey values in the file's own type.
@@ -176,7 +176,7 @@ void require_good(const TileCommand& command) {
 /// Holds one slice at a time.
 void run(const TileCommand& command) {
   require_good(command);
-  Progress progress(command.quiet);
+  Progress progress(command.common.quiet);
   Slice first;
   AtomicFile file(command.out);
   std::ofstream out(file.temporary(), std::ios::binary);
@@ -216,12 +216,7 @@ void add_tile_command(CLI::App& app, int& exit_code) {
   tile->add_option("--origin", command->origin_mm, "X,Y,Z: centre of the first voxel, LPS mm [0,0,0]")
       ->delimiter(',')
       ->expected(3);
-  tile->add_option("--threads", command->threads, "threads (tiling needs one)")->check(CLI::Range(0, 1024));
-  tile->add_flag("--quiet", command->quiet, "no progress");
-  tile->callback([command, &exit_code] {
-    run(*command);
-    exit_code = kExitSuccess;
-  });
+  complete_command(*tile, command->common, exit_code, [command] { run(*command); });
 }
 
 }  // namespace cbc3d
