@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Texts = std::vector<std::string>;
 
-/// The JSON file with the words to complain about it.
+/// The JSON file, with the checks that name file and key when they fail.
 struct Description {
   const fs::path& file;
   json content;
@@ -107,7 +107,8 @@ ParameterSpecs read_parameters(const Description& description) {
   return specs;
 }
 
-/// The names that the command's braces may hold must all be known, and those that matter must be there.
+/// Every name in the command's braces must be known, and the command must use the image, the mesh and every
+/// parameter.
 void check_placeholders(const Description& description, const Texts& command, const ParameterSpecs& specs) {
   std::set<std::string> known{"image", "mesh", "report", "threads"};
   for (const ParameterSpec& spec : specs) {

@@ -13,8 +13,8 @@ ParameterSpecs parameters() {
       {"perturb", "true", "true|false", "move the vertices of slivers"},
       {"perturb-sliver-bound", "12", "deg", "perturbation ends at this dihedral angle"},
       {"exude", "true", "true|false", "weight vertices such that slivers leave the triangulation"},
-      // CGAL leaves this at 0, bounded by a measured time: not repeatable, and without the time limit the
-      // liver takes 37 s instead of 0.2 s for the same smallest angle.
+      // CGAL's own default is 0 with a limit on the time, which does not repeat; without that limit the liver
+      // takes 37 s instead of 0.2 s for the same smallest angle.
       {"exude-sliver-bound", "12", "deg",
        "exudation ends at this dihedral angle; 0: it goes as far as it can"},
       {"time-limit", "300", "s",
@@ -23,7 +23,7 @@ ParameterSpecs parameters() {
   };
 }
 
-/// `executable` needs what `libraries` names and the packages give.
+/// `libraries`: what the program is built with; `packages`: the Debian packages that have them.
 Adapter make(const std::string& name, const std::string& description, const std::string& libraries,
              const std::string& packages) {
   const std::string executable = "cbc3d-mesher-" + name;

@@ -22,7 +22,7 @@ struct MeshJob {
 
 /// A parameter of a mesher, given on its command line as `--key value`.
 struct ParameterSpec {
-  std::string key;            ///< long option without its dashes
+  std::string key;            ///< its long option without hyphens
   std::string default_value;  ///< as text, or in words where it depends on the image
   std::string unit;           ///< "mm", "deg", ...; "" for a bare number, "true|false" for a switch
   std::string description;    ///< one line
@@ -69,17 +69,18 @@ struct Adapter {
   /// The argument vector of a job. Throws InputError for a parameter the mesher does not have.
   std::function<std::vector<std::string>(const std::filesystem::path& bin_dir, const MeshJob&)> command;
   std::string mesh_extension = ".vtu";       ///< of the mesh file that the command writes
-  std::vector<std::string> version_command;  ///< prints the version; empty: the report tells it
+  std::vector<std::string> version_command;  ///< prints the version; empty: the report has it
 };
 
-/// The folder of the running program, in which the programs of all meshers lie too.
+/// The folder of the running program, which is that of all meshers' programs.
 std::filesystem::path program_folder();
 
 /// Available when `executable` is a file in `bin_dir`; otherwise the reason is `remedy`.
 Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,
                                      const std::string& remedy);
 
-/// Where the shell would find a program: itself when it is a path, else its place in PATH; empty: nowhere.
+/// Where the shell would find a program: a path is its own place, a name is sought in PATH. Empty when it is
+/// nowhere.
 std::filesystem::path find_program(const std::string& program);
 
 /// Throws InputError, naming the known keys, when the mesher has none of that name. The parameters of a
@@ -92,7 +93,7 @@ void require_known_parameters(const Adapter& mesher, const std::filesystem::path
 void require_known_parameters(const std::string& mesher, const ParameterSpecs& known,
                               const std::map<std::string, std::string>& parameters);
 
-/// The argument vector of an executable that speaks this room's protocol (see driver.hpp).
+/// The argument vector of an executable that follows the protocol of driver.hpp.
 std::vector<std::string> protocol_command(const std::filesystem::path& executable, const std::string& mesher,
                                           const ParameterSpecs& known, const MeshJob& job);
 

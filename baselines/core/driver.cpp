@@ -84,7 +84,7 @@ struct Request {
   bool quiet = false;
 };
 
-// What becomes of a run, and then of its report.
+// How a run ended, for its report.
 struct Outcome {
   int exit_code = kExitSuccess;
   std::string status = "ok";
@@ -110,7 +110,7 @@ double cpu_seconds_with_children() {
   return process_cpu_seconds() + seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// A forked child shares its parent's pages, so the larger of the two is what the run took.
+// A forked child shares its parent's pages, so the run took the larger of the two.
 std::int64_t peak_rss_bytes_with_children() {
   return std::max(process_peak_rss_bytes(), static_cast<std::int64_t>(children_usage().ru_maxrss) * 1024);
 }
@@ -198,7 +198,7 @@ void fail(Outcome& outcome, int exit_code, const std::string& status, const std:
   outcome.reason = reason;
 }
 
-// Runs the job; whatever goes wrong ends in the outcome.
+// Runs the job; the outcome has what went wrong.
 Outcome attempt(const MesherProgram& program, Request& request, const ParameterValues& values) {
   Outcome outcome;
   try {

@@ -25,7 +25,7 @@ namespace cbc3d::baselines {
 /// Wall-clock seconds of named stages, in the order in which they were begun.
 class StageTimes {
  public:
-  /// Ends the running stage and begins `name`; a name begun before goes on counting.
+  /// Ends the running stage and begins `name`; seconds of a name begun before add up.
   void start(const std::string& name);
   /// Ends the running stage.
   void stop();

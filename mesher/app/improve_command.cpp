@@ -23,7 +23,7 @@
 namespace cbc3d {
 namespace {
 
-// Facets stay nearer to the boundary than the surface's vertices stay to what they stand for, by this factor.
+// The distance allowed to the surface's vertices over the one allowed to facets.
 constexpr double kReachOfDeviation = 10;
 
 struct ImproveCommand {
@@ -35,7 +35,7 @@ struct ImproveCommand {
   CommonOptions common;
 };
 
-/// A mesh under improvement and how it came.
+/// A mesh under improvement, and what it was before.
 struct Subject {
   MaterialMesh mesh;
   LabelImage image;  ///< an empty one with the mesh's labels where none was given

@@ -48,7 +48,7 @@ void require_same_frame(const ImageFrame& frame, const ImageFrame& other, const 
   }
 }
 
-/// Puts the segmented voxels into `labels` as `label`: where it is background, or anywhere.
+/// Puts the segmented voxels into `labels` as `label`, where it is background or, with `overwrite`, anywhere.
 void merge_into(LabelImage& labels, const LabelImage& segmented, Label label, bool overwrite) {
   const auto known = std::find(labels.labels.begin(), labels.labels.end(), label);
   const auto material = static_cast<MaterialId>(known - labels.labels.begin());

@@ -55,7 +55,7 @@ itk::ImageIOBase::Pointer reader_of(const std::string& file) {
   fail(file, "not a PNG, BMP or TIFF image; convert it to one");
 }
 
-/// Colour slices whose channels are all the same are grey ones; others are refused.
+/// Takes a colour slice whose channels are all the same as a grey one, and refuses others.
 void keep_first_channel(Slice& slice, std::size_t channels, const std::string& file) {
   const std::size_t count = slice.width * slice.height, bytes = slice.bytes_per_value;
   const std::size_t colours = std::min<std::size_t>(channels, 3);
@@ -127,7 +127,7 @@ std::string triple(const std::vector<double>& v, const char* separator) {
   return text.str();
 }
 
-/// Both headers say: uncompressed values follow, first axis fastest, lowest byte first.
+/// In both formats uncompressed values follow, first axis fastest, lowest byte first.
 std::string header(const TileCommand& command, const Slice& first) {
   const TypeNames& names = names_of(first.component, command.slices.front());
   const std::vector<double>& s = command.spacing_mm;
@@ -173,7 +173,7 @@ void require_good(const TileCommand& command) {
   }
 }
 
-/// Holds one slice at a time.
+/// Holds one slice in memory at a time.
 void run(const TileCommand& command) {
   require_good(command);
   Progress progress(command.common.quiet);
