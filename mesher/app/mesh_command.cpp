@@ -110,7 +110,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   mesh->add_option("--dump-stages", command->dump_stages, "folder for the mesh after each stage")
       ->type_name("DIR");
   mesh->add_flag_callback("--describe-options", print_description,
-                          "print the options above as JSON, for every preset, and end");
+                          "print the options of every preset as JSON and end");
   complete_command(*mesh, command->common, exit_code, [command] { run_reporting(*command); });
 }
 

@@ -121,14 +121,14 @@ std::vector<DefaultColumn> preset_columns(bool always_mixed) {
 
 void add_option_flag(CLI::App& command, const OptionRow& row, const std::vector<DefaultColumn>& columns,
                      OptionSettings& settings) {
-  add_flag(command, row, help_text(row, columns), settings)->group(heading(row.group));
+  add_flag(command, row, help_text(row, columns), settings);
 }
 
 void add_option_flags(CLI::App& command, OptionGroup group, const std::vector<DefaultColumn>& columns,
                       OptionSettings& settings) {
   for (const OptionRow& row : option_table()) {
     if (row.group == group) {
-      add_option_flag(command, row, columns, settings);
+      add_flag(command, row, help_text(row, columns), settings)->group(heading(group));
     }
   }
 }

@@ -26,7 +26,7 @@ std::vector<DefaultColumn> preset_columns(bool always_mixed = false);
 void add_option_flag(CLI::App& command, const OptionRow& row, const std::vector<DefaultColumn>& columns,
                      OptionSettings& settings);
 
-/// The same for all rows of a group.
+/// The same for all rows of a group, under its heading.
 void add_option_flags(CLI::App& command, OptionGroup group, const std::vector<DefaultColumn>& columns,
                       OptionSettings& settings);
 
