@@ -1,6 +1,6 @@
 # Run by `cmake --install` with SOURCE_DIR and HEADER_DIR: installs the public headers and all that they include.
 cmake_policy(VERSION 3.25)
-file(STRINGS ${SOURCE_DIR}/packaging/public_headers.txt open)
+file(STRINGS ${SOURCE_DIR}/ci/packaging/public_headers.txt open)
 set(headers "")
 while(open)
   list(POP_FRONT open header)

@@ -26,7 +26,7 @@ void list_meshers(const ListOptions& options) {
               << (mesher.multithreaded ? "" : ", sequential")
               << (mesher.deterministic ? "" : ", not deterministic")
               << (availability.available ? "" : "\n    unavailable: " + availability.reason) << '\n';
-    for (const baselines::ParameterSpec& parameter : mesher.parameters) {
+    for (const baselines::ParameterSpec& parameter : mesher.parameters.in(bin_dir())) {
       std::cout << "    " << parameter.key << " = " << parameter.default_value
                 << (parameter.unit.empty() ? "" : " " + parameter.unit) << ": " << parameter.description
                 << '\n';

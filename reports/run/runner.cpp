@@ -54,7 +54,7 @@ std::vector<Job> all_jobs(const Bench& bench, const RunOptions& options) {
   for (const cases::Case& subject : bench.cases) {
     for (const baselines::Adapter& mesher : bench.meshers) {
       const Parameters parameters = parameters_of(subject, mesher.name, options);
-      baselines::require_known_parameters(mesher.name, mesher.parameters, {"", "", "", 1, parameters});
+      baselines::require_known_parameters(mesher, bench.bin_dir, parameters);
       for (const int threads : thread_counts(mesher, options.threads)) {
         for (int repeat = 0; repeat < options.repeats; ++repeat) {
           jobs.push_back({&subject, &mesher, threads, repeat, parameters});

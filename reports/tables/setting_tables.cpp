@@ -63,7 +63,7 @@ std::map<std::string, std::string> parameters_in_force(const Json& result) {
   std::map<std::string, std::string> values;
   const Json reported = figure(result, {"mesher_report", "parameters"});
   if (const auto* adapter = baselines::find_adapter(result.value("mesher", ""))) {
-    for (const baselines::ParameterSpec& spec : adapter->parameters) {
+    for (const baselines::ParameterSpec& spec : adapter->parameters.in(baselines::program_folder())) {
       values[spec.key] = spec.default_value;
     }
   }
@@ -111,7 +111,7 @@ std::string description_of(const std::string& mesher, const std::string& key) {
   if (adapter == nullptr) {
     return "";
   }
-  for (const baselines::ParameterSpec& spec : adapter->parameters) {
+  for (const baselines::ParameterSpec& spec : adapter->parameters.in(baselines::program_folder())) {
     if (spec.key == key) {
       return spec.description + (spec.unit.empty() ? "" : " [" + spec.unit + "]");
     }

@@ -36,7 +36,7 @@ void write_slice(const fs::path& path, const std::vector<Value>& values,
   io->Write(values.data());
 }
 
-/// A value that tells where it is.
+/// Values that differ from pixel to pixel and from slice to slice.
 template <class Value>
 std::vector<Value> slice(int k) {
   std::vector<Value> values;
