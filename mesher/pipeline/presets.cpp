@@ -1,6 +1,7 @@
 #include "mesher/pipeline/presets.hpp"
 
 #include "mesher/core/error.hpp"
+#include "mesher/domain/tolerances.hpp"
 
 namespace cbc3d {
 
@@ -14,10 +15,10 @@ namespace {
 void refine_by_distance(MeshImageOptions& options, double diagonal_mm) {
   RefineOptions& refine = options.refine;
   refine.fidelity = 0.01;
-  refine.max_distance_mm = kReachDiagonals * diagonal_mm;
+  refine.max_distance_mm = tolerances::kReach * diagonal_mm;
   refine.each_interface = true;
-  refine.max_stray_mm = 1.25 * diagonal_mm;
-  refine.contact_reach_mm = 0.45 * diagonal_mm;
+  refine.max_vertex_distance_mm = tolerances::kLatticeFarLimit * diagonal_mm;
+  refine.contact_distance_mm = tolerances::kContact * diagonal_mm;
   refine.smooth_labels = true;
   refine.one_face_rule = false;
   refine.topology_rounds = 0;
@@ -49,7 +50,9 @@ MeshImageOptions quality_options(double diagonal_mm) {
   options.deform.displacement.pair_distance = 0.8;
   options.improve.enabled = true;
   options.improve.reach_mm = options.refine.max_distance_mm;
-  options.stricter = Tolerance{0.9 * diagonal_mm, 0.2, 0};
+  options.stricter = Tolerance{.max_distance_mm = tolerances::kStrictReach * diagonal_mm,
+                               .deviation_diagonals = tolerances::kStrictDeviation,
+                               .collapse_leeway_deg = 0};
   return options;
 }
 
