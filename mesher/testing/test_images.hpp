@@ -1,6 +1,7 @@
 // Small images and mesh checks that the mesher's tests share.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <random>
@@ -42,6 +43,22 @@ inline LabelImage ball_image(int size, double spacing_mm, double radius_mm, doub
                       const double r = (p - Vec3{c, c, c}).norm();
                       return r <= core_mm ? 2 : r <= radius_mm ? 1 : 0;
                     });
+}
+
+inline LabelImage touching_balls() {
+  return make_image({26, 18, 18}, {1, 1, 1}, 2, [](const Vec3& p) {
+    return (p - Vec3{8.2, 8.6, 8.5}).norm() < 6.1 ? 1 : (p - Vec3{17, 8.4, 8.7}).norm() < 6.3 ? 2 : 0;
+  });
+}
+
+/// Label 1: a ball with a cavity (two spheres); label 2: a torus that goes around nothing.
+inline LabelImage cavity_and_torus() {
+  return make_image({42, 26, 18}, {1, 1, 1}, 2, [](const Vec3& p) {
+    const double r = (p - Vec3{9, 12, 8.5}).norm();
+    const Vec3 q = p - Vec3{29, 12.5, 8.5};
+    const double ring = std::hypot(q.x, q.y) - 7;
+    return r < 7 && r > 3 ? 1 : std::hypot(ring, q.z) < 2.8 ? 2 : 0;
+  });
 }
 
 /// Seeded noise of the given density over two materials, with an empty rim.
