@@ -1,6 +1,8 @@
 // Which boundary voxels have a vertex near, against searches through all of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <vector>
 
 #include "mesher/domain/coverage.hpp"
@@ -8,6 +10,38 @@
 
 namespace cbc3d {
 namespace {
+
+TEST(BoundaryCoverage, FindsWhatHasNoVertexOfItsMaterialNear) {
+  const LabelImage image = testing::noisy_blocks_image(4, 3);
+  std::mt19937 random(8);
+  std::vector<Vec3> points;
+  std::vector<SurfaceVertex> surface;
+  for (VertexId v = 0; v < 60; ++v) {
+    points.push_back({static_cast<double>(random() % 320) / 10, static_cast<double>(random() % 250) / 10,
+                      static_cast<double>(random() % 310) / 10});
+    surface.push_back({v, static_cast<MaterialId>(1 + random() % 4)});
+  }
+  BoundaryCoverage coverage(image);
+  for (const double distance_mm : {3.0, 7.0}) {
+    coverage.update(surface, points, distance_mm);
+    std::size_t uncovered = 0;
+    for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+      const Index3 at = image.frame.index_of(v);
+      const MaterialId own = image.voxels[v];
+      if (own == kBackground || !is_boundary_voxel(image, at[0], at[1], at[2])) {
+        continue;
+      }
+      const Vec3 centre = image.frame.local_centre(at[0], at[1], at[2]);
+      const bool covered = std::any_of(surface.begin(), surface.end(), [&](const SurfaceVertex& s) {
+        return s.material == own && (points[s.vertex] - centre).norm() <= distance_mm;
+      });
+      uncovered += covered ? 0 : 1;
+      EXPECT_TRUE(covered || coverage.wants_refinement(at[1], at[2], at[0], at[0] + 1));
+    }
+    EXPECT_EQ(coverage.uncovered_count(), uncovered);
+    EXPECT_GT(uncovered, 100U);
+  }
+}
 
 TEST(InterfaceCoverage, AClosedGapBetweenTwoLabelsIsSeen) {
   // Two slabs one voxel apart. Vertices in the gap where both labels meet cover each label's boundary; the

@@ -61,6 +61,28 @@ inline LabelImage cavity_and_torus() {
   });
 }
 
+/// Blocks of labels with noise, so that many tets are pure and many are not.
+inline LabelImage noisy_blocks_image(int materials, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<int> of_block(512);
+  for (int& m : of_block) {
+    m = static_cast<int>(random() % static_cast<unsigned>(materials + 1));
+  }
+  return make_image({32, 28, 24}, {1, 0.9, 1.3}, materials, [&](const Vec3& p) {
+    const auto block = static_cast<std::size_t>(p.x / 9) * 64 + static_cast<std::size_t>(p.y / 9) * 8 +
+                       static_cast<std::size_t>(p.z / 9);
+    return random() % 200 == 0 ? 1 : of_block[block];
+  });
+}
+
+/// A block of two materials, so that there are an interface and coarse insides.
+inline LabelImage block_image() {
+  return make_image({56, 44, 44}, {1, 1, 1}, 2, [](const Vec3& p) {
+    const bool inside = p.x > 2 && p.x < 53 && p.y > 2 && p.y < 41 && p.z > 2 && p.z < 41;
+    return !inside ? 0 : p.x + 0.2 * p.y < 30 ? 1 : 2;
+  });
+}
+
 /// Seeded noise of the given density over two materials, with an empty rim.
 inline LabelImage noise_image(int size, double density, std::uint32_t seed) {
   std::mt19937 random(seed);

@@ -1,50 +1,22 @@
-// A box of small tets.
+// A box of small tets whose materials are given by place.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
-#include <utility>
-#include <vector>
 
 #include "mesher/improve/local/tet_complex.hpp"
+#include "mesher/testing/kuhn_box.hpp"
 
 namespace cbc3d::testing {
 
-/// A box of unit cubes, six tets each around the diagonal; conforming, materials by `material_at` of the
-/// centroid.
-struct Box {
-  std::vector<Vec3> points;
-  TetNodes tets;
+/// A box of unit cubes, six tets each, whose materials are those of their centroids.
+struct Box : KuhnBox {
   std::vector<MaterialId> materials;
 
   explicit Box(
-      int n, const std::function<int(const Vec3&)>& material_at = [](const Vec3&) { return 1; }) {
-    const auto at = [&](int i, int j, int k) {
-      return static_cast<VertexId>((k * (n + 1) + j) * (n + 1) + i);
-    };
-    for (int v = 0; v < (n + 1) * (n + 1) * (n + 1); ++v) {
-      points.push_back({static_cast<double>(v % (n + 1)), static_cast<double>(v / (n + 1) % (n + 1)),
-                        static_cast<double>(v / ((n + 1) * (n + 1)))});
-    }
-    constexpr std::array<std::array<int, 3>, 6> kOrders = {
-        {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-    for (int cube = 0; cube < n * n * n; ++cube) {
-      for (const auto& order : kOrders) {
-        Index3 p = {cube % n, cube / n % n, cube / (n * n)};
-        std::array<VertexId, 4> nodes{};
-        Vec3 centroid;
-        for (std::size_t s = 0; s < 4; ++s) {
-          nodes[s] = at(p[0], p[1], p[2]);
-          centroid += 0.25 * points[nodes[s]];
-          if (s < 3) ++p[static_cast<std::size_t>(order[s])];
-        }
-        if (six_volumes(points[nodes[0]], points[nodes[1]], points[nodes[2]], points[nodes[3]]) < 0) {
-          std::swap(nodes[2], nodes[3]);
-        }
-        tets.push_back(nodes);
-        materials.push_back(static_cast<MaterialId>(material_at(centroid)));
-      }
+      int n, const std::function<int(const Vec3&)>& material_at = [](const Vec3&) { return 1; })
+      : KuhnBox(n) {
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+      materials.push_back(static_cast<MaterialId>(material_at(centroid(t))));
     }
   }
   [[nodiscard]] TetComplex complex() const {

@@ -9,9 +9,9 @@
 
 #include "mesher/domain/image_boundary.hpp"
 #include "mesher/improve/local/mesh_patches.hpp"
-#include "mesher/improve/local/testing_lattice_mesh.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
+#include "mesher/lattice/testing_lattice_mesh.hpp"
 #include "mesher/testing/mesh_checks.hpp"
 
 namespace cbc3d::testing {

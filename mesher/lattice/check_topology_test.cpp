@@ -1,48 +1,67 @@
-// Mesh topological checks, against a facet-based check that shares no code with them.
+// The topological checks, against a check by facets that shares no code with them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/check_topology.hpp"
-#include "mesher/pipeline/mesh_image.hpp"
-#include "mesher/pipeline/presets.hpp"
+#include "mesher/lattice/refine_lattice.hpp"
+#include "mesher/lattice/testing_lattice_mesh.hpp"
+#include "mesher/preprocess/clean_image.hpp"
 #include "mesher/testing/mesh_checks.hpp"
 #include "mesher/testing/test_images.hpp"
+#include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d {
 namespace {
 
 using testing::Faults;
 
-Faults faults_of_label(const Mesh& mesh, Label label) {
-  return testing::faults_of_surface(testing::surface_of_label(mesh.tets.nodes, mesh.tets.labels, label));
+Faults faults_of_material_label(const MaterialMesh& mesh, const LabelImage& image, Label label) {
+  std::vector<Label> labels;
+  std::transform(mesh.materials.begin(), mesh.materials.end(), std::back_inserter(labels),
+                 [&](MaterialId m) { return image.labels[m]; });
+  return testing::faults_of_surface(testing::surface_of_label(mesh.tets, labels, label));
 }
 
-Mesh mesh_with_checks(const LabelImage& image, bool checks, MeshImageReport& report) {
-  MeshImageOptions options;
-  options.clean.region_tolerance = 0;
-  options.refine.max_distance_mm = 2 * image.frame.voxel_diagonal_mm();
-  options.deform.iterations = 0;
-  options.topology.enabled = checks;
-  Progress quiet(true);
-  return mesh_image(image, options, quiet, report);
+/// The candidate mesh of the cleaned image, with the checks or without.
+MaterialMesh mesh_with_checks(LabelImage& image, bool checks, TopologyReport& report) {
+  CleanOptions clean;
+  clean.region_tolerance = 0;
+  clean_image(image, clean, true);
+  RefineOptions refine;
+  refine.max_distance_mm = 2 * image.frame.voxel_diagonal_mm();
+  refine.finest_spacing_mm = 1;
+  refine.topology_checks = checks;
+  Lattice lattice = build_bcc_lattice(image, {default_lattice_spacing_mm(image.frame), 0.25});
+  CandidateMesh candidate = refine_lattice(lattice, image, refine, [](int, std::size_t) {}).mesh;
+  if (checks) {
+    report = check_topology(candidate, local_points(lattice), image, {.enabled = true});
+  }
+  return discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
 }
 
-TEST(Topology, NoiseBecomesManifoldForEveryLabel) {
+TEST(CheckTopology, NoiseBecomesManifoldForEveryLabel) {
   std::size_t without = 0;
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
-    const LabelImage image = testing::noise_image(16, 0.6, seed);
-    MeshImageReport report;
-    const Mesh rough = mesh_with_checks(image, false, report);
-    const Mesh mesh = mesh_with_checks(image, true, report);
-    EXPECT_EQ(report.topology.non_manifold_vertices_left, 0U);
+    LabelImage image = testing::noise_image(16, 0.6, seed);
+    TopologyReport report;
+    const MaterialMesh rough = mesh_with_checks(image, false, report);
+    LabelImage again = testing::noise_image(16, 0.6, seed);
+    const MaterialMesh mesh = mesh_with_checks(again, true, report);
+    EXPECT_EQ(report.non_manifold_vertices_left, 0U);
     ASSERT_GT(mesh.tets.size(), 1000U);
     for (const Label label : {1, 2}) {
-      const Faults before = faults_of_label(rough, label);
-      const Faults after = faults_of_label(mesh, label);
+      const Faults before = faults_of_material_label(rough, image, label);
+      const Faults after = faults_of_material_label(mesh, again, label);
       without += before.edges + before.vertices;
       EXPECT_EQ(after.edges, 0U) << "seed " << seed << " label " << label;
       EXPECT_EQ(after.vertices, 0U) << "seed " << seed << " label " << label;
     }
-    const auto neighbours = tet_neighbours(mesh.tets.nodes, mesh.points.size());
+    const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
     // The rule of the candidate mesh still holds.
     EXPECT_TRUE(std::all_of(neighbours.begin(), neighbours.end(),
                             [](const auto& n) { return std::count(n.begin(), n.end(), kNoTet) <= 1; }));
@@ -50,7 +69,7 @@ TEST(Topology, NoiseBecomesManifoldForEveryLabel) {
   EXPECT_GT(without, 0U);  // there was something to repair
 }
 
-/// A fan of unit tets on the axes round the origin, as a candidate mesh with the given materials: octants of
+/// A fan of unit tets on the axes around the origin, as a candidate mesh with the given materials: octants of
 /// a cube cut into one tet each, whose stars at the origin are known.
 CandidateMesh octants(const std::array<MaterialId, 8>& materials, std::vector<Vec3>& points) {
   points = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -70,7 +89,7 @@ CandidateMesh octants(const std::array<MaterialId, 8>& materials, std::vector<Ve
   return mesh;
 }
 
-TEST(Topology, KnownStars) {
+TEST(CheckTopology, KnownStars) {
   std::vector<Vec3> points;
   const auto bad_at_origin = [&](const std::array<MaterialId, 8>& materials) {
     const CandidateMesh mesh = octants(materials, points);
@@ -86,27 +105,21 @@ TEST(Topology, KnownStars) {
   EXPECT_TRUE(bad_at_origin({1, 2, 2, 1, 2, 1, 1, 2}));   // a checkerboard
 }
 
-TEST(Topology, NoiseBecomesManifoldWithoutTheRuleOfOneFaceToo) {
+TEST(CheckTopology, NoiseBecomesManifoldWithoutTheRuleOfOneFaceToo) {
   const LabelImage image = testing::noise_image(14, 0.5, 4);
-  MeshImageOptions options = preset_options("quality", image.frame);
-  options.improve.enabled = false;
-  ASSERT_FALSE(options.topology.one_face_rule);
-  MeshImageReport report;
-  Progress quiet(true);
-  const Mesh mesh = mesh_image(image, options, quiet, report);
-  EXPECT_EQ(report.topology.non_manifold_vertices_left, 0U);
+  const MaterialMesh mesh = testing::lattice_mesh(image);
   for (const Label label : {1, 2}) {
-    const Faults faults = faults_of_label(mesh, label);
+    const Faults faults = faults_of_material_label(mesh, image, label);
     EXPECT_EQ(faults.edges + faults.vertices, 0U) << "label " << label;
   }
   std::ptrdiff_t two = 0;  // tets that the rule would have taken away
-  for (const auto& n : tet_neighbours(mesh.tets.nodes, mesh.points.size())) {
+  for (const auto& n : tet_neighbours(mesh.tets, mesh.points.size())) {
     two += std::count(n.begin(), n.end(), kNoTet) > 1 ? 1 : 0;
   }
   EXPECT_GT(two, 0);
 }
 
-TEST(Topology, TheImageDecidesFirstAtANonManifoldVertex) {
+TEST(CheckTopology, TheImageDecidesFirstAtANonManifoldVertex) {
   for (const int there : {0, 1}) {
     const LabelImage image = testing::make_image({3, 3, 3}, {1, 1, 1}, 1, [&](const Vec3&) { return there; });
     std::vector<Vec3> points;
@@ -119,29 +132,16 @@ TEST(Topology, TheImageDecidesFirstAtANonManifoldVertex) {
   }
 }
 
-TEST(Topology, CrumbsGoAndRegionsStay) {
+TEST(CheckTopology, SmallComponentsGoAndRegionsStay) {
   // Two balls of label 1 (two regions) far apart: both are components that the image has.
-  const LabelImage image = testing::make_image({60, 24, 24}, {1, 1, 1}, 1, [](const Vec3& p) {
+  LabelImage image = testing::make_image({60, 24, 24}, {1, 1, 1}, 1, [](const Vec3& p) {
     return (p - Vec3{14, 12, 12}).norm() < 9 || (p - Vec3{46, 12, 12}).norm() < 2.5 ? 1 : 0;
   });
-  MeshImageReport report;
+  TopologyReport report;
   mesh_with_checks(image, true, report);
-  ASSERT_EQ(report.topology.labels.size(), 1U);
-  EXPECT_EQ(report.topology.labels[0].image_regions, 2U);
-  EXPECT_EQ(report.topology.labels[0].components, 2U);
-}
-
-TEST(Topology, WarnsWithoutVoxelCleaning) {
-  const LabelImage image = testing::ball_image(24, 1, 8);
-  MeshImageOptions options;
-  options.topology.enabled = true;
-  options.clean.manifold_voxels = false;
-  MeshImageReport report;
-  Progress quiet(true);
-  mesh_image(image, options, quiet, report);
-  EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
-    return w.find("--no-manifold-voxels") != std::string::npos;
-  }));
+  ASSERT_EQ(report.labels.size(), 1U);
+  EXPECT_EQ(report.labels[0].image_regions, 2U);
+  EXPECT_EQ(report.labels[0].components, 2U);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The preset "quality" end to end: sound meshes of good angles with the image's topology.
+// The presets: their options, and "quality" end to end: sound meshes of good angles with the image's
+// topology.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/core/error.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
 #include "mesher/testing/mesh_checks.hpp"
@@ -163,6 +165,34 @@ TEST(QualityPreset, EveryInterfaceOfTheImageHasVerticesNearby) {
                                      tet_neighbours(local.tets, local.points.size()), local.points.size());
   const double diagonal = image.frame.voxel_diagonal_mm();
   EXPECT_TRUE(points_without_host(interface_points(image), local.points, sets, 1.1 * diagonal).empty());
+}
+
+TEST(Presets, AreNamedAndOthersRefused) {
+  const ImageFrame frame;
+  for (const std::string& name : preset_names()) {
+    EXPECT_NO_THROW(preset_options(name, frame)) << name;
+  }
+  try {
+    preset_options("fast", frame);
+    FAIL() << "an unknown preset is taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("fast"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("quality or paper"), std::string::npos);
+  }
+}
+
+TEST(Presets, DistancesOfTheQualityPresetAreInVoxelDiagonals) {
+  ImageFrame frame;
+  const MeshImageOptions unit = preset_options("quality", frame);
+  frame.spacing_mm = 3 * frame.spacing_mm;
+  const MeshImageOptions large = preset_options("quality", frame);
+  EXPECT_NEAR(large.refine.max_distance_mm, 3 * unit.refine.max_distance_mm, 1e-12);
+  EXPECT_NEAR(large.improve.reach_mm, 3 * unit.improve.reach_mm, 1e-12);
+  EXPECT_EQ(unit.improve.reach_mm, unit.refine.max_distance_mm);
+  EXPECT_EQ(large.improve.deviation_diagonals, unit.improve.deviation_diagonals);
+  EXPECT_TRUE(unit.improve.enabled);
+  EXPECT_FALSE(preset_options("quality", frame, true).improve.enabled);  // it knows no hexes
+  EXPECT_FALSE(preset_options("paper", frame).improve.enabled);
 }
 
 }  // namespace

@@ -1,19 +1,16 @@
-// What the refinement does in parallel: the outcome is that of one thread, in order.
+// The selection of the candidate mesh, against its rules written down tet by tet.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
 #include <random>
 #include <utility>
+#include <vector>
 
-#include "mesher/core/error.hpp"
-#include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/red_green.hpp"
 #include "mesher/lattice/select_candidate.hpp"
 #include "mesher/lattice/testing_lattice_checks.hpp"
-#include "mesher/testing/test_images.hpp"
 #include "mesher/testing/thread_counts.hpp"
 #include "mesher/topology/tet_adjacency.hpp"
 
@@ -21,80 +18,7 @@ namespace cbc3d {
 namespace {
 
 using testing::at_thread_counts;
-
-/// Rounds in which many tets split at once, and then few.
-Lattice refined_lattice() {
-  Lattice lattice = build_bcc_lattice(testing::ball_image(40, 1, 17), {3, 0.3});
-  RedGreenRefiner refiner(lattice);
-  std::mt19937 random(7);
-  for (const std::uint32_t one_in : {4U, 40U, 4000U}) {
-    std::vector<std::uint8_t> marked(lattice.reds.size());
-    std::generate(marked.begin(), marked.end(),
-                  [&] { return static_cast<std::uint8_t>(random() % one_in == 0); });
-    refiner.refine(marked);
-  }
-  return lattice;
-}
-
-TEST(RefinementThreads, SplitsManyTetsAtOnceAsOneAfterTheOther) {
-  const int before = omp_get_max_threads();
-  omp_set_num_threads(1);
-  const Lattice wanted = refined_lattice();
-  omp_set_num_threads(before);
-  ASSERT_GT(wanted.reds.size(), 50000U);
-  at_thread_counts([&] {
-    const Lattice lattice = refined_lattice();
-    testing::expect_same_lattice(lattice, wanted);
-    for (std::size_t v = 0; v < wanted.points.size(); ++v) {
-      ASSERT_EQ(lattice.table.find(wanted.points[v]), v);
-    }
-  });
-}
-
-TEST(RefinementThreads, NeighboursAreTheTetsWithTheSameFace) {
-  const Lattice lattice = refined_lattice();
-  LatticeTets tets = extract_tets(lattice);
-  std::map<std::array<VertexId, 3>, std::vector<TetId>> of_face;
-  const auto face_of = [&](TetId t, std::size_t n) {
-    std::array<VertexId, 3> face;
-    for (std::size_t c = 0; c < 3; ++c) {
-      face[c] = tets.nodes[t][kTetFace[n][c]];
-    }
-    std::sort(face.begin(), face.end());
-    return face;
-  };
-  TetNeighbours wanted(tets.size(), {kNoTet, kNoTet, kNoTet, kNoTet});
-  for (TetId t = 0; t < tets.size(); ++t) {
-    for (std::size_t n = 0; n < 4; ++n) {
-      of_face[face_of(t, n)].push_back(t);
-    }
-  }
-  for (TetId t = 0; t < tets.size(); ++t) {
-    for (std::size_t n = 0; n < 4; ++n) {
-      for (const TetId other : of_face[face_of(t, n)]) {
-        wanted[t][n] = other == t ? wanted[t][n] : other;
-      }
-    }
-  }
-  at_thread_counts([&] {
-    EXPECT_EQ(tet_neighbours(tets.nodes, lattice.points.size()), wanted);
-    TetNeighbours partly = wanted;  // what is known stays, what is not is found
-    for (std::size_t t = 0; t < partly.size(); t += 5) {
-      partly[t] = {kUnknownTet, kUnknownTet, kUnknownTet, kUnknownTet};
-      for (std::size_t n = 0; n < 4; ++n) {
-        if (wanted[t][n] != kNoTet) {
-          auto& back = partly[wanted[t][n]];
-          std::replace(back.begin(), back.end(), static_cast<TetId>(t), kUnknownTet);
-        }
-      }
-    }
-    find_unknown_neighbours(tets.nodes, lattice.points.size(), partly);
-    EXPECT_EQ(partly, wanted);
-  });
-  tets.nodes.push_back(tets.nodes[tets.size() / 2]);
-  at_thread_counts([&] { EXPECT_THROW(tet_neighbours(tets.nodes, lattice.points.size()), JobError); });
-  EXPECT_TRUE(tet_neighbours({}, 0).empty());
-}
+using testing::refined_lattice;
 
 /// The rules of the selection (select_candidate.hpp), written down tet by tet in order.
 class SelectionInOrder {
@@ -169,7 +93,7 @@ class SelectionInOrder {
   std::vector<MaterialId> materials_;
 };
 
-TEST(RefinementThreads, SelectionIsThatOfTheOrder) {
+TEST(SelectCandidate, SelectionIsThatOfTheOrder) {
   const Lattice lattice = refined_lattice();
   const LatticeTets tets = extract_tets(lattice);
   const TetNeighbours neighbours = tet_neighbours(tets.nodes, lattice.points.size());

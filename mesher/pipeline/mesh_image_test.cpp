@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "mesher/core/error.hpp"
-#include "mesher/lattice/select_candidate.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
 #include "mesher/testing/test_images.hpp"
@@ -254,7 +257,7 @@ TEST(MeshImage, AllIsDoneOnceMoreWithStricterTolerancesWhereAnglesStayBelowTheGo
   EXPECT_EQ(once.stage_seconds.size(), report.stage_seconds.size());
 }
 
-TEST(SelectCandidate, NoLabelledTetKeepsTwoFacesTowardsBackground) {
+TEST(MeshImage, NoLabelledTetKeepsTwoFacesTowardsBackground) {
   const LabelImage image = testing::noise_image(24, 0.5, 11);
   MeshImageOptions options;
   options.deform.iterations = 0;
@@ -267,7 +270,7 @@ TEST(SelectCandidate, NoLabelledTetKeepsTwoFacesTowardsBackground) {
   }
 }
 
-TEST(SelectCandidate, DoesNotDependOnLabelOrder) {
+TEST(MeshImage, DoesNotDependOnLabelOrder) {
   const LabelImage image = testing::make_image({40, 30, 30}, {1, 1, 1}, 2, [](const Vec3& p) {
     return (p - Vec3{14, 15, 15}).norm() < 11 ? 1 : (p - Vec3{24, 15, 15}).norm() < 9 ? 2 : 0;
   });
@@ -281,6 +284,19 @@ TEST(SelectCandidate, DoesNotDependOnLabelOrder) {
   ASSERT_EQ(a.tets.size(), b.tets.size());
   EXPECT_NEAR(volume_of(a, 1), volume_of(b, 2), 1e-9);
   EXPECT_NEAR(volume_of(a, 2), volume_of(b, 1), 1e-9);
+}
+
+TEST(MeshImage, WarnsOfTopologyChecksWithoutVoxelCleaning) {
+  const LabelImage image = testing::ball_image(24, 1, 8);
+  MeshImageOptions options;
+  options.topology.enabled = true;
+  options.clean.manifold_voxels = false;
+  MeshImageReport report;
+  Progress quiet(true);
+  mesh_image(image, options, quiet, report);
+  EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
+    return w.find("--no-manifold-voxels") != std::string::npos;
+  }));
 }
 
 }  // namespace
