@@ -103,7 +103,7 @@ void seed_components(Complex& complex, const Domain& domain, const CGAL::Image_3
   }
 }
 
-void improve(Complex& complex, const Domain& domain, const CgalOptions& options, StageTimes& stages) {
+void improve(Complex& complex, const Domain& domain, const CgalOptions& options, StageClock& stages) {
   namespace p = CGAL::parameters;
   if (options.perturb) {
     stages.start("perturb");
@@ -142,7 +142,7 @@ Mesh to_mesh(const Complex& complex, const LabelImage& image) {
 
 }  // namespace
 
-Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageTimes& stages) {
+Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageClock& stages) {
   namespace p = CGAL::parameters;
 #ifdef CBC3D_CGAL_PARALLEL
   const tbb::global_control pool(tbb::global_control::max_allowed_parallelism,

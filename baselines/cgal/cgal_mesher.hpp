@@ -26,6 +26,6 @@ struct CgalOptions {
 
 /// Meshes every labelled component of `image`. The result is in physical space with the image's own labels.
 /// Throws JobError when no cell comes out.
-Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageTimes& stages);
+Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageClock& stages);
 
 }  // namespace cbc3d::baselines

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   program.versions = {{"cgal", CGAL_VERSION_STR}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int threads,
-                   cbc3d::baselines::StageTimes& stages) {
+                   cbc3d::StageClock& stages) {
     CgalOptions options = options_of(values);
     options.threads = threads;
     return cbc3d::baselines::mesh_with_cgal(image, options, stages);

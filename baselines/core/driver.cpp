@@ -18,21 +18,6 @@
 
 namespace cbc3d::baselines {
 
-void StageTimes::start(const std::string& name) {
-  stop();
-  const auto same = [&](const auto& stage) { return stage.first == name; };
-  const auto found = std::find_if(seconds_.begin(), seconds_.end(), same);
-  running_ = static_cast<std::size_t>(found - seconds_.begin());
-  if (found == seconds_.end()) seconds_.emplace_back(name, 0.0);
-  is_running_ = true;
-  watch_ = Stopwatch();
-}
-
-void StageTimes::stop() {
-  if (is_running_) seconds_[running_].second += watch_.seconds();
-  is_running_ = false;
-}
-
 ParameterValues::ParameterValues(const std::vector<ParameterSpec>& specs) {
   for (const ParameterSpec& spec : specs) values_[spec.key] = spec.default_value;
 }
@@ -91,7 +76,7 @@ struct Outcome {
   std::string reason;
   double total_s = 0;
   double cpu_s = 0;
-  StageTimes stages;
+  StageClock stages;
   std::size_t vertices = 0;
   std::size_t tets = 0;
 };

@@ -12,31 +12,14 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "baselines/core/adapter.hpp"
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
-#include "mesher/core/runtime.hpp"
+#include "mesher/core/stage_clock.hpp"
 
 namespace cbc3d::baselines {
-
-/// Wall-clock seconds of named stages, in the order in which they were begun.
-class StageTimes {
- public:
-  /// Ends the running stage and begins `name`; a name begun before goes on counting.
-  void start(const std::string& name);
-  /// Ends the running stage.
-  void stop();
-  [[nodiscard]] const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
-
- private:
-  std::vector<std::pair<std::string, double>> seconds_;
-  std::size_t running_ = 0;
-  bool is_running_ = false;
-  Stopwatch watch_;
-};
 
 /// Parameter values by key, checked as they are read.
 class ParameterValues {
@@ -65,7 +48,7 @@ struct MesherProgram {
   /// Checks the parameter values. Throws InputError. Called before the image is read.
   std::function<void(const ParameterValues&)> check;
   /// Meshes the image; the result is in physical space with the image's own labels.
-  std::function<Mesh(const LabelImage&, const ParameterValues&, int threads, StageTimes&)> run;
+  std::function<Mesh(const LabelImage&, const ParameterValues&, int threads, StageClock&)> run;
 };
 
 /// The whole of main(): parse, read, mesh, write, report. Returns the exit code.

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::baselines {
@@ -38,23 +35,6 @@ TEST(ParameterValues, RefuseWhatIsNoSwitch) {
   EXPECT_THROW((void)given.flag("on"), InputError);
   given.text("on") = "false";
   EXPECT_FALSE(given.flag("on"));
-}
-
-TEST(StageTimes, ASecondTurnCountsOnInTheSamePlace) {
-  const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
-  StageTimes stages;
-  stages.start("mesh");
-  pause();
-  stages.start("repair");
-  stages.start("mesh");
-  pause();
-  stages.stop();
-  pause();
-  ASSERT_EQ(stages.seconds().size(), 2U);
-  EXPECT_EQ(stages.seconds()[0].first, "mesh");
-  EXPECT_GE(stages.seconds()[0].second, 0.04);
-  EXPECT_EQ(stages.seconds()[1].first, "repair");
-  EXPECT_LT(stages.seconds()[1].second, 0.02);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
   program.versions = {{"tetgen", CBC3D_TETGEN_VERSION}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int,
-                   cbc3d::baselines::StageTimes& stages) {
+                   cbc3d::StageClock& stages) {
     return cbc3d::baselines::mesh_with_tetgen(image, options_of(values), stages);
   };
   return cbc3d::baselines::run_mesher_program(program, argc, argv);

@@ -202,7 +202,7 @@ std::string mesh_switches(const TetgenOptions& options) {
 
 // The check takes longer than the meshing and the nets hardly ever need it: mesh first, check and repair only
 // after a failure.
-TetgenOutput tetrahedralize_with_repair(SurfaceNet& net, const TetgenOptions& options, StageTimes& stages) {
+TetgenOutput tetrahedralize_with_repair(SurfaceNet& net, const TetgenOptions& options, StageClock& stages) {
   for (int round = 0;; ++round) {
     stages.start("tetrahedra");
     try {
@@ -217,7 +217,7 @@ TetgenOutput tetrahedralize_with_repair(SurfaceNet& net, const TetgenOptions& op
 
 }  // namespace
 
-Mesh mesh_with_tetgen(const LabelImage& image, const TetgenOptions& options, StageTimes& stages) {
+Mesh mesh_with_tetgen(const LabelImage& image, const TetgenOptions& options, StageClock& stages) {
   stages.start("surface");
   SurfaceNetOptions net_options;
   net_options.smoothing_steps = options.smoothing_steps;

@@ -17,6 +17,6 @@ struct TetgenOptions {
 
 /// Meshes `image`. The result is in physical space with the image's own labels. Throws JobError, saying what
 /// TetGen met, when it fails; std::bad_alloc when it runs out of memory.
-Mesh mesh_with_tetgen(const LabelImage& image, const TetgenOptions& options, StageTimes& stages);
+Mesh mesh_with_tetgen(const LabelImage& image, const TetgenOptions& options, StageClock& stages);
 
 }  // namespace cbc3d::baselines

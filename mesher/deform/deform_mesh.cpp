@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/core/runtime.hpp"
+#include "mesher/core/stage_clock.hpp"
 
 namespace cbc3d {
 namespace {
@@ -22,38 +22,23 @@ class Deformer {
   Deformer(MaterialMesh& mesh, const LabelImage& image, const DeformOptions& options)
       : mesh_(mesh), image_(image), options_(options) {}
 
- private:
-  /// Runs a part and adds its seconds to those of its name.
-  template <typename Part>
-  auto timed(const char* name, const Part& part) {
-    auto& parts = report_.part_seconds;
-    auto own = std::find_if(parts.begin(), parts.end(), [&](const auto& p) { return p.first == name; });
-    own = own == parts.end() ? parts.insert(own, {name, 0}) : own;
-    struct Clock {
-      ~Clock() { seconds += watch.seconds(); }
-      double& seconds;
-      Stopwatch watch;
-    } clock{own->second, {}};
-    return part();
-  }
-
- public:
   DeformReport run(const std::function<void(int)>& on_iteration) {
-    timed("extraction", [&] { extract_points(); });
-    ElasticSystem system = timed("assembly", [&] {
+    clock_.time("extraction", [&] { extract_points(); });
+    ElasticSystem system = clock_.time("assembly", [&] {
       return ElasticSystem(mesh_, around_, elastic_materials(image_, options_.elasticity),
                            options_.elasticity);
     });
-    SourceDisplacements asked = timed("displacements", [&] {
+    SourceDisplacements asked = clock_.time("displacements", [&] {
       return SourceDisplacements({sources_, targets_, sets_, image_.frame}, options_.displacement);
     });
     for (int i = 0; i < options_.iterations && !report_.stopped_early; ++i) {
       on_iteration(i);
       report_.iterations.emplace_back();
-      timed("displacements", [&] { take_displacements(asked.at(mesh_.points)); });
-      timed("assembly", [&] { system.assemble(mesh_, is_source_); });
+      clock_.time("displacements", [&] { take_displacements(asked.at(mesh_.points)); });
+      clock_.time("assembly", [&] { system.assemble(mesh_, is_source_); });
       move_under_quality_control(system);
     }
+    report_.part_seconds = clock_.seconds();
     return std::move(report_);
   }
 
@@ -97,8 +82,8 @@ class Deformer {
     // What the last iteration asked for is mostly reached: its displacements would be a poor start.
     displacement_.assign(before.size(), {});
     for (now().attempts = 0;; ++now().attempts) {
-      timed("solve", [&] { now().solver = system.solve(load_, displacement_); });
-      failing = timed("quality_control", [&] {
+      clock_.time("solve", [&] { now().solver = system.solve(load_, displacement_); });
+      failing = clock_.time("quality_control", [&] {
         apply(before);
         return quality.failing(before, mesh_.points);
       });
@@ -114,7 +99,7 @@ class Deformer {
       mesh_.points = before;
       report_.stopped_early = true;
     } else {
-      timed("quality_control", [&] {
+      clock_.time("quality_control", [&] {
         now().held_vertices = quality.hold_back(before, std::move(failing), displacement_, mesh_.points);
       });
     }
@@ -151,6 +136,7 @@ class Deformer {
   std::vector<Vec3> load_;          // H^T D
   std::vector<std::uint8_t> is_source_;
   DeformReport report_;
+  StageClock clock_;
 };
 
 }  // namespace

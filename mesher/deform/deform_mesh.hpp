@@ -3,10 +3,9 @@
 #pragma once
 
 #include <functional>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "mesher/core/stage_clock.hpp"
 #include "mesher/deform/elasticity.hpp"
 #include "mesher/deform/quality_control.hpp"
 #include "mesher/deform/source_displacements.hpp"
@@ -46,7 +45,7 @@ struct DeformReport {
   bool stopped_early = false;
   std::vector<DeformIteration> iterations;
   /// Seconds by part: extraction, displacements, assembly, solve, quality_control.
-  std::vector<std::pair<std::string, double>> part_seconds;
+  StageSeconds part_seconds;
 };
 
 /// Deforms `mesh` (local mm) towards `image`. Every cell keeps at least the minimum quality, or what it had

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "mesher/core/progress.hpp"
 #include "mesher/improve/local/edge_collapse.hpp"
 #include "mesher/improve/local/edge_removal.hpp"
 #include "mesher/improve/local/edge_split.hpp"
@@ -79,6 +78,7 @@ class Improver {
       order_for_locality(mesh_);
     }
     finish();
+    report_.part_seconds = clock_.seconds();
     return std::move(report_);
   }
 
@@ -103,7 +103,8 @@ class Improver {
     report_.tets_before = mesh_.tets.size();
     report_.min_dihedral_before_deg = degrees(worst_sine_squared(mesh_));
     report_.boundary_samples = domain_.samples().size();
-    timed("covering", [this] { cover_ = cover_samples(mesh_, domain_, mm_.reach, options_.keep_distances); });
+    clock_.time("covering",
+                [this] { cover_ = cover_samples(mesh_, domain_, mm_.reach, options_.keep_distances); });
   }
 
   /// Tets that are flat or inside out are repaired first.
@@ -205,7 +206,7 @@ class Improver {
       correct_and_separate();
     }
     if (options_.may_relabel && !options_.keep_distances && has_surface_defects()) {
-      timed("surface_defects", [this] { remove_defects(); });
+      clock_.time("surface_defects", [this] { remove_defects(); });
     }
   }
 
@@ -216,7 +217,7 @@ class Improver {
     report_.tets_after = mesh_.tets.size();
     report_.min_dihedral_after_deg = degrees(worst_sine_squared(mesh_));
     if (!options_.only_bad && options_.may_relabel) {
-      timed("check", [this] {
+      clock_.time("check", [this] {
         report_.self_intersections_left =
             std::max(report_.self_intersections_left, count_self_intersections(mesh_, domain_.label_of()));
       });
@@ -240,7 +241,7 @@ class Improver {
     }
     on_round_(round_);
     std::size_t bad = 0;
-    timed(name, [&] {
+    clock_.time(name, [&] {
       bad = improve_near_bad_tets(mesh_, cover_.covering, rules, round_++, below, std::min(4, round + 1),
                                   [&](Patch& patch) { repair_patch(patch, below > 0 ? round : 0); });
     });
@@ -270,7 +271,8 @@ class Improver {
   /// Surfaces that the volume correction moves may meet, and what is separated is missing from the volumes.
   void correct_and_separate() {
     if (options_.correct_volumes) {
-      with_cover(cover_.reach_mm, [this](SurfaceCover& cover) { timed("volumes", [&] { correct(cover); }); });
+      with_cover(cover_.reach_mm,
+                 [this](SurfaceCover& cover) { clock_.time("volumes", [&] { correct(cover); }); });
     }
     const double farthest_mm = std::max(cover_.reach_mm, tolerances::kRepairReach * mm_.scale);
     with_cover(options_.keep_distances ? cover_.reach_mm : farthest_mm,
@@ -296,7 +298,7 @@ class Improver {
   /// Intersecting facets are separated; where that fails, and at far vertices and pinches, tets are
   /// relabelled.
   void separate_and_relabel(SurfaceCover& cover) {
-    timed("self_intersections", [&] { separate_and_relabel_in_turns(cover); });
+    clock_.time("self_intersections", [&] { separate_and_relabel_in_turns(cover); });
   }
 
   void separate_and_relabel_in_turns(SurfaceCover& cover) {
@@ -365,23 +367,10 @@ class Improver {
   template <typename Improve>
   void in_patches(const std::string& name, const Improve& improve) {
     on_round_(round_);
-    timed(name, [&] { improve_in_patches(mesh_, cover_.covering, rules_now(), round_++, improve); });
-    timed("covering", [this] { cover_uncovered_samples(mesh_, cover_); });
+    clock_.time(name, [&] { improve_in_patches(mesh_, cover_.covering, rules_now(), round_++, improve); });
+    clock_.time("covering", [this] { cover_uncovered_samples(mesh_, cover_); });
     if (options_.correct_volumes) {
-      timed("volumes", [this] { offsets_.update(mesh_); });
-    }
-  }
-
-  template <typename Part>
-  void timed(const std::string& name, const Part& part) {
-    const Stopwatch watch;
-    part();
-    const auto known = std::find_if(report_.part_seconds.begin(), report_.part_seconds.end(),
-                                    [&](const auto& p) { return p.first == name; });
-    if (known == report_.part_seconds.end()) {
-      report_.part_seconds.emplace_back(name, watch.seconds());
-    } else {
-      known->second += watch.seconds();
+      clock_.time("volumes", [this] { offsets_.update(mesh_); });
     }
   }
 
@@ -398,6 +387,7 @@ class Improver {
   std::vector<double> sizes_;  // in a round of decimation with a gradation
   int round_ = 0;
   bool may_have_defects_ = false;  // the last relabelling has left some
+  StageClock clock_;               // of the parts
   ImproveReport report_;
 };
 

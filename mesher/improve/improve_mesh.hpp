@@ -8,10 +8,8 @@
 
 #include <functional>
 #include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
+#include "mesher/core/stage_clock.hpp"
 #include "mesher/domain/domain.hpp"
 #include "mesher/domain/tolerances.hpp"
 #include "mesher/topology/material_mesh.hpp"
@@ -61,7 +59,7 @@ struct ImproveReport {
   std::size_t self_intersections_left = 0;  ///< pairs of facets between labels, or outer ones
   std::size_t surface_defects_left = 0;     ///< see DefectRemovalReport
   /// Seconds by part, in the order of their first occurrence.
-  std::vector<std::pair<std::string, double>> part_seconds;
+  StageSeconds part_seconds;
 };
 
 /// Improves a mesh of tets (local mm) towards the domain. Same result at any thread count. Tets that are not

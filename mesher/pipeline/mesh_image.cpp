@@ -22,26 +22,14 @@ class StageLog {
   template <typename Stage>
   auto run(const std::string& name, double fraction, const Stage& stage) {
     progress_.step(name, fraction);
-    const Stopwatch watch;
-    struct Record {
-      ~Record() {
-        const double seconds = watch.seconds();
-        const auto known = std::find_if(report.stage_seconds.begin(), report.stage_seconds.end(),
-                                        [&](const auto& stage) { return stage.first == name; });
-        if (known == report.stage_seconds.end()) {
-          report.stage_seconds.emplace_back(name, seconds);
-        } else {
-          known->second += seconds;
-        }
-        report.seconds += seconds;
-        report.cpu_seconds += process_cpu_seconds() - cpu_before;
-      }
-      MeshImageReport& report;
-      const std::string& name;
-      const Stopwatch& watch;
-      double cpu_before;
-    } record{report_, name, watch, process_cpu_seconds()};
-    return stage();
+    return clock_.time(name, stage);
+  }
+
+  /// Enters the seconds of all stages into the report.
+  void report_seconds() {
+    report_.stage_seconds = clock_.seconds();
+    report_.seconds = clock_.total_seconds();
+    report_.cpu_seconds = clock_.cpu_seconds();
   }
 
   void dump(const std::string& file, const MaterialMesh& mesh) const {
@@ -58,6 +46,7 @@ class StageLog {
   const MeshImageOptions& options_;
   Progress& progress_;
   MeshImageReport& report_;
+  StageClock clock_;
 };
 
 /// A lattice as a mesh to look at: every tet, labelled 1.
@@ -277,6 +266,7 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, Progress& pro
     report.was_stricter = true;
     mesh = mesh_clean_image(domain, with_tolerance(options, *options.stricter), log, progress, report);
   }
+  log.report_seconds();
   return to_physical_mesh(mesh, image);
 }
 

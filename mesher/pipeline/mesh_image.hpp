@@ -11,6 +11,7 @@
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/mesh.hpp"
 #include "mesher/core/progress.hpp"
+#include "mesher/core/stage_clock.hpp"
 #include "mesher/deform/deform_mesh.hpp"
 #include "mesher/improve/improve_mesh.hpp"
 #include "mesher/lattice/check_topology.hpp"
@@ -47,8 +48,7 @@ struct MeshImageOptions {
 struct MeshImageReport {
   double lattice_spacing_mm = 0;
   double finest_spacing_mm = 0;
-  std::vector<std::pair<std::string, double>>
-      stage_seconds;  ///< in order, of both times where all was done twice; files not included
+  StageSeconds stage_seconds;  ///< files not included; where all was done twice, the sums of both passes
   double seconds = 0;
   double cpu_seconds = 0;  ///< user and system, all threads, of the same stages
   CleanReport clean;
