@@ -15,7 +15,8 @@
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
-#include "mesher/domain/mesh_boundary.hpp"
+#include "mesher/domain/image_domain.hpp"
+#include "mesher/domain/mesh_domain.hpp"
 #include "mesher/improve/improve_mesh.hpp"
 #include "mesher/topology/labelled_tets.hpp"
 #include "mesher/topology/orient_tets.hpp"
@@ -23,8 +24,8 @@
 namespace cbc3d {
 namespace {
 
-// The distance allowed to the surface's vertices over the one allowed to facets.
-constexpr double kReachOfDeviation = 10;
+// The reach of the samples, as a multiple of how far facets may be from the boundary.
+constexpr double kReachPerDeviation = 10;
 
 struct ImproveCommand {
   std::string mesh, image, out;
@@ -85,25 +86,26 @@ void improve(const ImproveCommand& command, Subject& subject, const std::functio
   ImproveOptions options = options_of(command);
   if (!command.image.empty()) {
     const double diagonal_mm = subject.image.frame.voxel_diagonal_mm();
-    options.reach_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.9 * diagonal_mm;
-    options.deviation_diagonals = options.reach_mm / diagonal_mm / kReachOfDeviation;
+    options.reach_mm =
+        command.max_deviation_mm > 0 ? command.max_deviation_mm : tolerances::kImproveReach * diagonal_mm;
+    options.deviation_diagonals = options.reach_mm / diagonal_mm / kReachPerDeviation;
     subject.max_deviation_mm = options.reach_mm;
-    subject.improve = improve_mesh(subject.mesh, subject.image, options, on_round);
+    subject.improve = improve_mesh(subject.mesh, ImageDomain(subject.image), options, on_round);
     return;
   }
-  const MeshBoundary boundary(subject.mesh);
-  const double edge_mm = boundary.mean_edge_mm();
+  const MeshDomain domain(subject.mesh, subject.image.labels);
+  const double edge_mm = domain.scale_mm();
   if (!(edge_mm > 0)) {
     throw InputError("'" + command.mesh +
                      "': the tets' surface is a single point; give a mesh with a volume");
   }
   subject.max_deviation_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.5 * edge_mm;
-  ImproveTarget target{boundary, boundary.points(), edge_mm};
-  target.deviation_mm = subject.max_deviation_mm / kReachOfDeviation;
-  target.reach_mm = subject.max_deviation_mm;
-  target.keep_distances = true;
-  target.hosts = boundary.hosts(subject.max_deviation_mm);
-  subject.improve = improve_mesh(subject.mesh, target, options, on_round);
+  options.deviation_mm = subject.max_deviation_mm / kReachPerDeviation;
+  options.reach_mm = subject.max_deviation_mm;
+  options.keep_distances = true;
+  options.may_relabel = false;
+  options.correct_volumes = false;
+  subject.improve = improve_mesh(subject.mesh, domain, options, on_round);
 }
 
 void warn(const ImproveCommand& command, Subject& subject) {

@@ -115,10 +115,10 @@ nlohmann::json improvement_json(const ImproveReport& improve, bool was_stricter)
           {"tets_after", improve.tets_after},
           {"min_dihedral_before_deg", improve.min_dihedral_before_deg},
           {"min_dihedral_after_deg", improve.min_dihedral_after_deg},
-          {"boundary_points", improve.boundary_points},
-          {"uncovered_points", improve.uncovered_points},
-          {"crossings_left", improve.crossings_left},
-          {"surface_faults_left", improve.faults_left},
+          {"boundary_samples", improve.boundary_samples},
+          {"uncovered_samples", improve.uncovered_samples},
+          {"self_intersections_left", improve.self_intersections_left},
+          {"surface_defects_left", improve.surface_defects_left},
           {"done_again_stricter", was_stricter},
           {"seconds", parts}};
 }

@@ -7,7 +7,7 @@
 
 #include "mesher/core/image_io.hpp"
 #include "mesher/deform/elasticity.hpp"
-#include "mesher/domain/image_boundary.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/improve/local/mesh_patches.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
 #include "mesher/lattice/voxel_raster.hpp"
@@ -67,8 +67,8 @@ void KernelCleaningScan(benchmark::State& state) {
 /// One sample at the face of every boundary voxel; 64 voxels, a point and a sample each.
 void KernelBoundaryField(benchmark::State& state) {
   const LabelImage& image = prepared(static_cast<int>(state.range(0))).image;
-  const ImageBoundary boundary(image, {});
-  const std::vector<InterfacePoint> points = interface_points(image);
+  const ImageDomain boundary(image, {});
+  const std::vector<BoundarySample> points = boundary_samples(image);
   std::vector<double> distance_mm(points.size());
   for ([[maybe_unused]] const auto _ : state) {
 #pragma omp parallel for schedule(static)
@@ -78,7 +78,7 @@ void KernelBoundaryField(benchmark::State& state) {
     benchmark::DoNotOptimize(distance_mm.data());
   }
   const auto count = static_cast<double>(points.size());
-  count_work(state, count, count * (64 + sizeof(InterfacePoint) + sizeof(double)));
+  count_work(state, count, count * (64 + sizeof(BoundarySample) + sizeof(double)));
 }
 
 void KernelTetNeighbours(benchmark::State& state) {
@@ -174,8 +174,8 @@ void KernelMatrixVector(benchmark::State& state) {
 void KernelRelaxation(benchmark::State& state) {
   const Prepared& p = prepared(static_cast<int>(state.range(0)));
   const double diagonal_mm = p.image.frame.voxel_diagonal_mm();
-  const ImageBoundary boundary(p.image, {});
-  const std::vector<InterfacePoint> points;
+  const ImageDomain boundary(p.image, {});
+  const std::vector<BoundarySample> points;
   const PatchRules rules{boundary, {0.15 * diagonal_mm, diagonal_mm}, points, 0.9 * diagonal_mm};
   for ([[maybe_unused]] const auto _ : state) {
     MaterialMesh mesh = p.mesh;

@@ -1,6 +1,7 @@
 #include "mesher/pipeline/presets.hpp"
 
 #include "mesher/core/error.hpp"
+#include "mesher/domain/tolerances.hpp"
 
 namespace cbc3d {
 
@@ -17,9 +18,9 @@ constexpr DisplacementOptions kTargetsOnBoundary{.target_position = TargetPositi
 /// The image's boundary by distance, both ways, for every interface: what the improvement then keeps.
 RefineOptions refinement_by_distance(double diagonal_mm) {
   return {.fidelity = 0.01,
-          .max_distance_mm = kReachDiagonals * diagonal_mm,
-          .max_stray_mm = 1.25 * diagonal_mm,
-          .contact_reach_mm = 0.45 * diagonal_mm,
+          .max_distance_mm = tolerances::kReach * diagonal_mm,
+          .max_vertex_distance_mm = tolerances::kLatticeFarLimit * diagonal_mm,
+          .contact_distance_mm = tolerances::kContact * diagonal_mm,
           .smooth_labels = true,
           .each_interface = true,
           .one_face_rule = false,
@@ -43,7 +44,7 @@ MeshImageOptions quality_options(double diagonal_mm) {
           .deform = {.iterations = 0, .displacement = kTargetsOnBoundary},
           .improve = {.enabled = true, .reach_mm = refine.max_distance_mm},
           .stricter = Tolerance{
-              .max_distance_mm = 0.9 * diagonal_mm, .deviation_diagonals = 0.2, .collapse_leeway_deg = 0}};
+              .max_distance_mm = tolerances::kStrictReach * diagonal_mm, .deviation_diagonals = tolerances::kStrictDeviation, .collapse_leeway_deg = 0}};
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ struct Parts {
     system.assemble(p.mesh, is_source);
   }
   VertexCells around;
-  LabelSets sets;
+  MaterialSets sets;
   SourcePoints sources;
   TargetPoints targets;
   ElasticSystem system;
@@ -130,7 +130,7 @@ void MixElements(benchmark::State& state) {
 void ExtractPoints(benchmark::State& state) {
   const Prepared& p = prepared(static_cast<int>(state.range(0)));
   for (auto _ : state) {
-    LabelSets sets;
+    MaterialSets sets;
     const VertexCells around = cells_of_vertices(p.mesh);
     benchmark::DoNotOptimize(extract_source_points(p.mesh, around, sets));
     benchmark::DoNotOptimize(extract_target_points(p.image, Connectivity::no, sets));

@@ -1,9 +1,12 @@
-#include "mesher/domain/mesh_boundary.hpp"
+#include "mesher/domain/mesh_domain.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
+
+#include "mesher/domain/tolerances.hpp"
 
 namespace cbc3d {
 namespace {
@@ -46,8 +49,9 @@ Place nearest_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec
 
 }  // namespace
 
-/// Facets of one pair in a balanced tree of boxes, children of node i at 2 i + 1 and 2 i + 2.
-class MeshBoundary::FacetTree {
+/// The facets of one pair of materials in a balanced tree of boxes; node i has the children 2 i + 1 and 2 i
+/// + 2.
+class MeshDomain::FacetTree {
  public:
   void add(const std::array<VertexId, 3>& facet) { facets_.push_back(facet); }
 
@@ -69,8 +73,15 @@ class MeshBoundary::FacetTree {
     split(0, 0, facets_.size());
   }
 
-  /// Of a place near x, with a normal that changes smoothly along the facets, towards the higher material.
-  [[nodiscard]] BoundarySample sample(const Vec3& x) const {
+  /// The nearest place of the facets and its squared distance.
+  [[nodiscard]] std::pair<Vec3, double> nearest(const Vec3& x) const {
+    Search search{x, kInfinity, {}, 0};
+    descend(0, search);
+    return {search.place.at, search.squared_mm2};
+  }
+
+  /// How x lies to the facets. The normal changes smoothly along them and points towards the higher material.
+  [[nodiscard]] BoundaryDistance distance(const Vec3& x) const {
     Search search{x, kInfinity, {}, 0};
     descend(0, search);
     const auto& facet = facets_[search.facet];
@@ -79,7 +90,7 @@ class MeshBoundary::FacetTree {
       normal += search.place.weights[i] * normals_[facet[i]].normalized();
     }
     normal = normal.normalized();
-    return {normal.dot(x - search.place.at), normal, std::sqrt(search.squared_mm2)};
+    return {normal.dot(x - search.place.at), normal, std::sqrt(search.squared_mm2), true};
   }
 
  private:
@@ -102,7 +113,7 @@ class MeshBoundary::FacetTree {
     std::size_t facet;
   };
 
-  /// Keeps a pair's own vertices only.
+  /// Keeps only the vertices that the pair's facets have.
   void number_vertices(const std::vector<Vec3>& points) {
     std::vector<VertexId> used;
     for (const auto& f : facets_) {
@@ -181,7 +192,10 @@ class MeshBoundary::FacetTree {
   std::vector<std::pair<std::size_t, std::size_t>> ranges_;
 };
 
-MeshBoundary::MeshBoundary(const MaterialMesh& mesh) {
+MeshDomain::MeshDomain(const MaterialMesh& mesh, std::vector<Label> labels) : labels_(std::move(labels)) {
+  label_of_.resize(labels_.size());
+  std::iota(label_of_.begin(), label_of_.end(), MaterialId{0});
+  add_volumes(mesh);
   const std::vector<Facet> facets = facets_of(mesh);
   double edges_mm = 0;
   FacetTree* tree_of_last = nullptr;
@@ -204,19 +218,29 @@ MeshBoundary::MeshBoundary(const MaterialMesh& mesh) {
     tree->build(mesh.points);
   }
   mean_edge_mm_ = facets.empty() ? 0 : edges_mm / (3.0 * static_cast<double>(facets.size()));
-  add_points(mesh, facets);
+  add_samples(mesh, facets);
 }
 
-MeshBoundary::~MeshBoundary() = default;
+MeshDomain::~MeshDomain() = default;
 
-std::vector<MeshBoundary::Facet> MeshBoundary::facets_of(const MaterialMesh& mesh) {
+void MeshDomain::add_volumes(const MaterialMesh& mesh) {
+  volumes_mm3_.assign(labels_.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets[t];
+    volumes_mm3_[mesh.materials[t]] +=
+        six_volumes(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) / 6;
+  }
+  volumes_mm3_[kBackground] = 0;
+}
+
+std::vector<MeshDomain::Facet> MeshDomain::facets_of(const MaterialMesh& mesh) {
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   std::vector<Facet> facets;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     for (std::size_t n = 0; n < 4; ++n) {
       const TetId next = neighbours[t][n];
       const MaterialId other = next == kNoTet ? kBackground : mesh.materials[next];
-      if (other < mesh.materials[t]) {  // the face looks outwards, the normal is to look inwards
+      if (other < mesh.materials[t]) {  // the face looks outwards, the normal must point inwards
         const auto& face = kTetFace[n];
         const auto& nodes = mesh.tets[t];
         facets.push_back({{nodes[face[0]], nodes[face[2]], nodes[face[1]]}, other, mesh.materials[t]});
@@ -226,9 +250,9 @@ std::vector<MeshBoundary::Facet> MeshBoundary::facets_of(const MaterialMesh& mes
   return facets;
 }
 
-void MeshBoundary::add_points(const MaterialMesh& mesh, const std::vector<Facet>& facets) {
+void MeshDomain::add_samples(const MaterialMesh& mesh, const std::vector<Facet>& facets) {
   const auto add = [&](const Vec3& x, MaterialId lower, MaterialId higher, VertexId vertex) {
-    points_.push_back(
+    own_samples_.push_back(
         {{static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)}, higher, lower});
     nearest_.push_back(vertex);
     to_nearest_mm_.push_back((mesh.points[vertex] - x).norm());
@@ -254,27 +278,61 @@ void MeshBoundary::add_points(const MaterialMesh& mesh, const std::vector<Facet>
   }
 }
 
-std::vector<VertexId> MeshBoundary::hosts(double reach_mm) const {
-  std::vector<VertexId> hosts = nearest_;
-  for (std::size_t p = 0; p < hosts.size(); ++p) {
-    if (to_nearest_mm_[p] > reach_mm) {
-      hosts[p] = kNoVertex;
+std::vector<VertexId> MeshDomain::covering_vertices(double reach_mm) const {
+  std::vector<VertexId> covering = nearest_;
+  for (std::size_t s = 0; s < covering.size(); ++s) {
+    if (to_nearest_mm_[s] > reach_mm) {
+      covering[s] = kNoVertex;
     }
   }
-  return hosts;
+  return covering;
 }
 
-BoundarySample MeshBoundary::sample(const Vec3& x, MaterialId a, MaterialId b) const {
+BoundaryDistance MeshDomain::boundary_distance(const Vec3& x, MaterialId a, MaterialId b) const {
   const auto tree = trees_.find({std::min(a, b), std::max(a, b)});
   if (tree == trees_.end()) {
-    return {0, {}, kInfinity};
+    return {.deviation_mm = kInfinity};
   }
-  BoundarySample sample = tree->second->sample(x);
+  BoundaryDistance distance = tree->second->distance(x);
   if (a < b) {
-    sample.distance_mm = -sample.distance_mm;
-    sample.normal = -sample.normal;
+    distance.distance_mm = -distance.distance_mm;
+    distance.normal = -distance.normal;
   }
-  return sample;
+  return distance;
+}
+
+MaterialId MeshDomain::material_at(const Vec3& x) const {
+  BoundaryDistance nearest{.deviation_mm = kInfinity};
+  MaterialId material = kBackground;
+  for (const auto& [pair, tree] : trees_) {
+    const BoundaryDistance distance = tree->distance(x);
+    if (distance.deviation_mm < nearest.deviation_mm) {
+      nearest = distance;
+      material = distance.distance_mm > 0 ? pair.second : pair.first;
+    }
+  }
+  return material;
+}
+
+std::optional<Vec3> MeshDomain::nearest_boundary(const Vec3& x, MaterialId material) const {
+  const double search_mm = tolerances::kNearestSearch * scale_mm();
+  double least = search_mm * search_mm;
+  std::optional<Vec3> nearest;
+  for (const auto& [pair, tree] : trees_) {
+    if (pair.first == material || pair.second == material) {
+      const auto& [at, squared] = tree->nearest(x);
+      if (squared <= least) {
+        least = squared;
+        nearest = at;
+      }
+    }
+  }
+  return nearest;
+}
+
+bool MeshDomain::is_near_boundary(const Vec3& x, MaterialId material) const {
+  const std::optional<Vec3> nearest = nearest_boundary(x, material);
+  return nearest && (*nearest - x).norm() <= tolerances::kFarLimit * scale_mm();
 }
 
 }  // namespace cbc3d
