@@ -1,3 +1,5 @@
+#include "metrics/evaluate.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,7 +2,6 @@
 #include <iostream>
 
 #include "cases/manifest.hpp"
-#include "mesher/core/error.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/output/output.hpp"
 #include "reports/run/workplace.hpp"
@@ -17,11 +16,7 @@ struct TablesOptions {
 };
 
 int write_again(const TablesOptions& options) {
-  const std::filesystem::path file = std::filesystem::path(options.folder) / "results.jsonl";
-  const std::vector<Json> results = read_results(file);
-  if (results.empty()) {
-    throw InputError("'" + file.string() + "': no results; name the --out folder of a run");
-  }
+  const std::vector<JobResult> results = results_of(options.folder);
   TerminalProgress progress(options.output.quiet);
   write_output(options.folder, results, cases::load_cases(manifest_dir()), bin_dir(), options.output,
                progress);

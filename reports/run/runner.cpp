@@ -120,19 +120,4 @@ std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, Termin
   return results;
 }
 
-std::string summary_line(const std::vector<Json>& results) {
-  std::string text = std::to_string(results.size()) + (results.size() == 1 ? " job:" : " jobs:");
-  const char* separator = " ";
-  for (const char* status : kStatuses) {
-    const auto count = std::count_if(results.begin(), results.end(), [&](const Json& result) {
-      return result.value("status", "") == status;
-    });
-    if (count > 0) {
-      text += separator + std::to_string(count) + " " + status;
-      separator = ", ";
-    }
-  }
-  return text;
-}
-
 }  // namespace cbc3d::reports

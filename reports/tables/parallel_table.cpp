@@ -1,4 +1,4 @@
-#include "reports/sweep/parallel_table.hpp"
+#include "reports/tables/parallel_table.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -145,6 +145,10 @@ Table parallel_table(const std::vector<SweepPoint>& points) {
     for (Row& row : SweepRows(sweep, threads).all()) table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+Table sweep_parallel_table(const TableInput& input) {
+  return parallel_table(points_of_sweep(input.folder, input.results));
 }
 
 }  // namespace cbc3d::reports
