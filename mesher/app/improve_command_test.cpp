@@ -12,7 +12,6 @@
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/domain/mesh_boundary.hpp"
 #include "mesher/testing/test_images.hpp"
 #include "mesher/topology/cell_quality.hpp"
 #include "mesher/topology/labelled_tets.hpp"
@@ -182,33 +181,6 @@ TEST_F(ImproveCommand, SaysWhatCannotBeUntangled) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("warning"), std::string::npos) << outcome.text;
   EXPECT_TRUE(fs::exists(folder_ / "out.vtu"));
-}
-
-TEST(MeshBoundary, IsTheNearestPlaceOnTheFacetsSignedTowardsTheFirstMaterial) {
-  std::vector<Label> labels;
-  MaterialMesh mesh = number_labels(shaken_block(8, 0.2), labels);
-  orient_tets(mesh);
-  const MeshBoundary boundary(mesh);
-  // Label -7 is material 1, in [2, 6]^3; the outside is material 0.
-  std::mt19937 random(3);
-  for (int i = 0; i < 2000; ++i) {
-    Vec3 x;
-    for (int axis = 0; axis < 3; ++axis) {
-      x[axis] = 1 + 6 * (random() / 4294967296.0);
-    }
-    Vec3 out;  // from the inner block
-    for (int axis = 0; axis < 3; ++axis) {
-      out[axis] = std::max({2 - x[axis], 0.0, x[axis] - 6});
-    }
-    const double depth = std::min((x - Vec3{2, 2, 2}).min_coeff(), (Vec3{6, 6, 6} - x).min_coeff());
-    const BoundarySample sample = boundary.sample(x, 1, 2);
-    EXPECT_NEAR(sample.deviation_mm, depth > 0 ? depth : out.norm(), 1e-9);
-    if (std::fabs(depth) > 1e-6) {
-      EXPECT_EQ(sample.distance_mm > 0, depth > 0);
-    }
-    EXPECT_EQ(boundary.sample(x, 2, 1).distance_mm, -sample.distance_mm);
-  }
-  EXPECT_TRUE(std::isinf(boundary.sample({4, 4, 4}, 1, 0).deviation_mm));
 }
 
 }  // namespace

@@ -67,18 +67,19 @@ void KernelCleaningScan(benchmark::State& state) {
 /// One sample at the face of every boundary voxel; 64 voxels, a point and a sample each.
 void KernelBoundaryField(benchmark::State& state) {
   const LabelImage& image = prepared(static_cast<int>(state.range(0))).image;
-  const ImageDomain boundary(image, {});
-  const std::vector<BoundarySample> points = boundary_samples(image);
+  const ImageDomain boundary(image);
+  const std::vector<BoundaryDistance> points = boundary_samples(image);
   std::vector<double> distance_mm(points.size());
   for ([[maybe_unused]] const auto _ : state) {
 #pragma omp parallel for schedule(static)
     for (std::size_t p = 0; p < points.size(); ++p) {
-      distance_mm[p] = boundary.sample(points[p].centre(), points[p].own, points[p].other).distance_mm;
+      distance_mm[p] =
+          boundary.boundary_distance(points[p].centre(), points[p].own, points[p].other).distance_mm;
     }
     benchmark::DoNotOptimize(distance_mm.data());
   }
   const auto count = static_cast<double>(points.size());
-  count_work(state, count, count * (64 + sizeof(BoundarySample) + sizeof(double)));
+  count_work(state, count, count * (64 + sizeof(BoundaryDistance) + sizeof(double)));
 }
 
 void KernelTetNeighbours(benchmark::State& state) {
@@ -174,13 +175,18 @@ void KernelMatrixVector(benchmark::State& state) {
 void KernelRelaxation(benchmark::State& state) {
   const Prepared& p = prepared(static_cast<int>(state.range(0)));
   const double diagonal_mm = p.image.frame.voxel_diagonal_mm();
-  const ImageDomain boundary(p.image, {});
-  const std::vector<BoundarySample> points;
-  const PatchRules rules{boundary, {0.15 * diagonal_mm, diagonal_mm}, points, 0.9 * diagonal_mm};
+  const ImageDomain domain(p.image);
+  const std::vector<BoundaryDistance> points;
+  const PatchRules rules{.boundaries = {domain},
+                         .guards = {.deviation_mm = 0.15 * diagonal_mm, .scale_mm = diagonal_mm},
+                         .samples = samples,
+                         .reach_mm = 0.9 * diagonal_mm};
   for ([[maybe_unused]] const auto _ : state) {
     MaterialMesh mesh = p.mesh;
-    std::vector<VertexId> hosts;
-    improve_in_patches(mesh, hosts, rules, 0, [](Patch& patch) { relax_vertices(patch, {1000, 0.5, 0}); });
+    std::vector<VertexId> covering;
+    improve_in_patches(mesh, covering, rules, 0, [](Patch& patch) {
+      relax_vertices(patch, {.surface_weight = 1000, .max_step = 0.5, .skip_below_mm = 0});
+    });
     benchmark::DoNotOptimize(mesh.points.data());
   }
   const auto vertices = static_cast<double>(p.mesh.points.size());

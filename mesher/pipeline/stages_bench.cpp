@@ -51,7 +51,8 @@ void AdaptiveRefinement(benchmark::State& state) {
   const Lattice coarse = build_bcc_lattice(p.image, {10, 1});
   for (auto _ : state) {
     Lattice lattice = coarse;
-    benchmark::DoNotOptimize(refine_lattice(lattice, p.image, refine_options(), [](int, std::size_t) {}));
+    benchmark::DoNotOptimize(
+        refine_lattice(lattice, ImageDomain(p.image), refine_options(), [](int, std::size_t) {}));
   }
   count_tets(state, p.refined.mesh.tets.size());
 }
@@ -76,7 +77,7 @@ void TopologyChecks(benchmark::State& state) {
   const Prepared& p = prepared(static_cast<int>(state.range(0)));
   for (auto _ : state) {
     CandidateMesh mesh = p.refined.mesh;
-    benchmark::DoNotOptimize(check_topology(mesh, p.points, p.image, {}));
+    benchmark::DoNotOptimize(check_topology(mesh, p.points, ImageDomain(p.image), {}));
   }
   count_tets(state, p.refined.mesh.tets.size());
 }

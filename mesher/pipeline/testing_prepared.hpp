@@ -47,7 +47,7 @@ inline const Prepared& prepared(int size) {
   if (added) {
     p.image = phantom(size);
     p.lattice = build_bcc_lattice(p.image, {10, 1});
-    p.refined = refine_lattice(p.lattice, p.image, refine_options(), [](int, std::size_t) {});
+    p.refined = refine_lattice(p.lattice, ImageDomain(p.image), refine_options(), [](int, std::size_t) {});
     p.points = local_points(p.lattice);
     p.mesh = discard_background(p.points, p.refined.mesh.tets.nodes, p.refined.mesh.materials);
   }

@@ -242,7 +242,7 @@ class TrialEdits {
     return vertices;
   }
 
-  /// Moves a vertex to where the worst angle round it is better, in ever smaller steps.
+  /// Moves a vertex to where the worst angle around it is better, in ever smaller steps.
   void optimize_angle(VertexId v) {
     double best = worst_angle({move(v, {})});
     for (const double share : {0.1, 0.06, 0.03, 0.015}) {

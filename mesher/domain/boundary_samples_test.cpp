@@ -1,4 +1,4 @@
-// Boundary voxels and the vertices that host them, against searches through all voxels and vertices.
+// Boundary samples and the vertices that cover them, against searches through all voxels and vertices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +10,9 @@
 #include <set>
 #include <vector>
 
+#include "mesher/domain/boundary_samples.hpp"
 #include "mesher/domain/coverage.hpp"
-#include "mesher/domain/interface_points.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/domain/testing_random_image.hpp"
 
 namespace cbc3d {
@@ -22,7 +23,7 @@ using testing::draw_in;
 using testing::kAnisotropic;
 using testing::random_image;
 
-TEST(InterfacePoints, AreThoseOfTheFaceNeighbours) {
+TEST(BoundarySamples, AreThoseOfTheFaceNeighbours) {
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
     const LabelImage image = random_image({7, 6, 5}, kAnisotropic, 3, seed);
     std::set<std::array<int, 3>> expected;  // voxel, own, other
@@ -41,8 +42,8 @@ TEST(InterfacePoints, AreThoseOfTheFaceNeighbours) {
     }
     std::set<std::array<int, 3>> found;
     std::size_t last = 0;
-    const auto points = interface_points(image);
-    for (const InterfacePoint& p : points) {
+    const auto points = boundary_samples(image);
+    for (const BoundarySample& p : points) {
       const Vec3 c = p.centre();
       const auto index = [&](int axis) {
         return static_cast<int>(std::lround(c[axis] / image.frame.spacing_mm[axis]));
@@ -77,7 +78,7 @@ Vertices draw_vertices(const LabelImage& image, std::size_t count, std::uint32_t
   return vertices;
 }
 
-double nearest_by_brute_force(const InterfacePoint& p, const Vertices& vertices, double reach_mm) {
+double nearest_by_brute_force(const BoundarySample& p, const Vertices& vertices, double reach_mm) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < vertices.points.size(); ++v) {
     const MaterialSet& set = vertices.sets[v];
@@ -89,51 +90,52 @@ double nearest_by_brute_force(const InterfacePoint& p, const Vertices& vertices,
   return nearest;
 }
 
-TEST(InterfacePoints, HostsThatAreKeptHideNothing) {
+TEST(BoundarySamples, VerticesThatStillCoverHideNothing) {
   const LabelImage image = random_image({8, 7, 6}, kAnisotropic, 2, 9);
-  const auto points = interface_points(image);
+  const auto points = boundary_samples(image);
   Vertices vertices = draw_vertices(image, 150, 9);
-  std::vector<VertexId> hosts;
+  std::vector<VertexId> covering;
   std::size_t changes = 0;
-  auto before = renew_hosts(points, vertices.points, vertices.sets, 1.5, hosts);
+  auto before = renew_covering_vertices(points, vertices.points, vertices.sets, 1.5, covering);
   for (std::size_t step = 0; step < 20; ++step) {
     vertices.sets[7 * step] = vertices.sets[(31 * step + 5) % vertices.sets.size()];
-    const auto without = renew_hosts(points, vertices.points, vertices.sets, 1.5, hosts);
-    EXPECT_EQ(without, points_without_host(points, vertices.points, vertices.sets, 1.5));
+    const auto without = renew_covering_vertices(points, vertices.points, vertices.sets, 1.5, covering);
+    EXPECT_EQ(without, uncovered_samples(points, vertices.points, vertices.sets, 1.5));
     changes += without != before ? 1 : 0;
     before = without;
   }
   EXPECT_GT(changes, 0U);
 }
 
-TEST(InterfacePoints, HostsAreTheNearestVerticesOfTheirInterface) {
+TEST(BoundarySamples, CoveringVerticesAreTheNearestOfTheirInterface) {
   for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
     const LabelImage image = random_image({8, 7, 6}, kAnisotropic, 2, seed);
-    const auto points = interface_points(image);
+    const auto points = boundary_samples(image);
     const Vertices vertices = draw_vertices(image, 150, seed);
     const double reach = 0.6 + 0.5 * seed;
-    const auto hosts = nearest_hosts(points, vertices.points, vertices.sets, reach);
-    const auto without = points_without_host(points, vertices.points, vertices.sets, reach);
+    const auto covering = nearest_covering_vertices(points, vertices.points, vertices.sets, reach);
+    const auto without = uncovered_samples(points, vertices.points, vertices.sets, reach);
     std::vector<std::size_t> expected_without;
-    ASSERT_EQ(hosts.size(), points.size());
+    ASSERT_EQ(covering.size(), points.size());
     for (std::size_t p = 0; p < points.size(); ++p) {
       const double nearest = nearest_by_brute_force(points[p], vertices, reach);
       if (std::isinf(nearest)) {
         expected_without.push_back(p);
-        EXPECT_EQ(hosts[p], kNoVertex);
+        EXPECT_EQ(covering[p], kNoVertex);
       } else {
-        ASSERT_NE(hosts[p], kNoVertex);
-        EXPECT_TRUE(points[p].is_on(vertices.sets[hosts[p]]));
-        EXPECT_NEAR((vertices.points[hosts[p]] - points[p].centre()).norm(), nearest, 1e-9);
+        ASSERT_NE(covering[p], kNoVertex);
+        EXPECT_TRUE(points[p].is_on(vertices.sets[covering[p]]));
+        EXPECT_NEAR((vertices.points[covering[p]] - points[p].centre()).norm(), nearest, 1e-9);
       }
     }
     EXPECT_EQ(without, expected_without);
     EXPECT_GT(without.size(), 0U);
     EXPECT_LT(without.size(), points.size());
-    InterfaceCoverage coverage(image);
+    const ImageDomain domain(image);
+    InterfaceCoverage coverage(domain);
     coverage.update(vertices.sets, vertices.points, reach);
     EXPECT_EQ(coverage.uncovered_count(), without.size());
-    // Wanted are the voxels of points without host, and those across the interface from them.
+    // Wanted are the voxels of uncovered samples, and those across the interface from them.
     std::set<std::size_t> wanted;
     for (const std::size_t p : without) {
       const Vec3 c = points[p].centre();
@@ -158,7 +160,7 @@ TEST(InterfacePoints, HostsAreTheNearestVerticesOfTheirInterface) {
   }
 }
 
-TEST(InterfacePoints, MaterialsOfASetMeetNearOrNot) {
+TEST(BoundarySamples, MaterialsOfASetMeetNearOrNot) {
   std::mt19937 random(7);
   int met = 0;
   for (int i = 0; i < 300; ++i) {
@@ -194,7 +196,7 @@ TEST(InterfacePoints, MaterialsOfASetMeetNearOrNot) {
         expected = expected && pairs.count({set.ids[s], set.ids[r]}) > 0;
       }
     }
-    EXPECT_EQ(all_meet_near(image, x, set, reach), expected);
+    EXPECT_EQ(ImageDomain(image).all_meet_near(x, set, reach), expected);
     met += expected ? 1 : 0;
   }
   EXPECT_GT(met, 50);
