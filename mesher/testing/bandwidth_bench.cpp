@@ -1,5 +1,5 @@
-// This machine's memory bandwidth, to which the kernels are compared: bytes are what a kernel must at least move, its
-// arrays read and written once.
+// This machine's memory bandwidth, to which the kernels are compared: bytes are what a kernel must at least
+// move, its arrays read and written once.
 #include "mesher/testing/bandwidth.hpp"
 
 namespace cbc3d::bench {

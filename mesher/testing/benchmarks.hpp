@@ -1,5 +1,5 @@
-// What the benchmarks work on: one three-material phantom at 1, 8 and 64 times the voxels (the argument is the size along an
-// axis), and how its items are counted.
+// What the benchmarks work on: one three-material phantom at 1, 8 and 64 times the voxels (the argument is
+// the size along an axis), and how its items are counted.
 #pragma once
 
 #include <benchmark/benchmark.h>
