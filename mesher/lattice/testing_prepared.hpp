@@ -1,4 +1,4 @@
-// What the benchmarks work on: one three-material phantom at 1, 8 and 64 times the voxels.
+// The benchmarks' phantom with what the lattice's stages make of it.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -8,22 +8,10 @@
 
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/refine_lattice.hpp"
-#include "mesher/testing/test_images.hpp"
+#include "mesher/testing/benchmarks.hpp"
 #include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d::bench {
-
-inline constexpr int kSizes[] = {48, 96, 192};
-
-/// Body, organ and a vessel through both, in the same proportions at every size; spacing 1 mm.
-inline LabelImage phantom(int size) {
-  const double s = size;
-  return testing::make_image({size, size, size}, {1, 1, 1}, 3, [s](const Vec3& p) {
-    const Vec3 q = p / s - Vec3{0.5, 0.5, 0.5};
-    const bool vessel = std::hypot(q.y - 0.1, q.z) < 0.05 && std::abs(q.x) < 0.4;
-    return vessel ? 3 : (q - Vec3{0.05, 0.1, 0}).norm() < 0.2 ? 2 : q.norm() < 0.42 ? 1 : 0;
-  });
-}
 
 /// The image and what the stages make of it.
 struct Prepared {
@@ -45,7 +33,7 @@ inline const Prepared& prepared(int size) {
   const auto [found, added] = cache.try_emplace(size);
   Prepared& p = found->second;
   if (added) {
-    p.image = phantom(size);
+    p.image = image_of(size);
     p.lattice = build_bcc_lattice(p.image, {10, 1});
     p.refined = refine_lattice(p.lattice, ImageDomain(p.image), refine_options(), [](int, std::size_t) {});
     p.points = local_points(p.lattice);
@@ -54,11 +42,8 @@ inline const Prepared& prepared(int size) {
   return p;
 }
 
-inline void all_sizes(benchmark::internal::Benchmark* benchmark) {
-  for (const int size : kSizes) {
-    benchmark->Arg(size);
-  }
-  benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
+inline const Prepared& prepared(const benchmark::State& state) {
+  return prepared(static_cast<int>(state.range(0)));
 }
 
 }  // namespace cbc3d::bench
