@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -397,6 +398,8 @@ void PlaceFinder::find_tunnels(const RelabelledVoxels& voxels) {
   std::vector<Index3> found;
   walk.relabel(voxels.uncovered, added ? -1 : 1, found);
   walk.relabel(voxels.overfilled, added ? -1 : 1, found);
+  // Where some tunnels are added and others lost, the label differs by fewer than there are places.
+  found.resize(std::min(found.size(), static_cast<std::size_t>(std::abs(label_.difference->b[1]))));
   for (const Index3& voxel : found) {
     add(added ? TopologyPlaceKind::kTunnelAdded : TopologyPlaceKind::kTunnelLost, voxel);
   }
