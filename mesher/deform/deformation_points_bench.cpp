@@ -12,7 +12,7 @@ using namespace bench;
 void ExtractPoints(benchmark::State& state) {
   const Prepared& p = prepared(state);
   for (auto _ : state) {
-    LabelSets sets;
+    MaterialSets sets;
     const VertexCells around = cells_of_vertices(p.mesh);
     benchmark::DoNotOptimize(extract_source_points(p.mesh, around, sets));
     benchmark::DoNotOptimize(extract_target_points(p.image, Connectivity::no, sets));

@@ -30,7 +30,7 @@ struct Parts {
     system.assemble(p.mesh, is_source);
   }
   VertexCells around;
-  LabelSets sets;
+  MaterialSets sets;
   SourcePoints sources;
   TargetPoints targets;
   ElasticSystem system;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesher/domain/image_boundary.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/improve/local/mesh_patches.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
 #include "mesher/lattice/testing_prepared.hpp"
@@ -18,13 +18,16 @@ using namespace bench;
 void KernelRelaxation(benchmark::State& state) {
   const Prepared& p = prepared(state);
   const double diagonal_mm = p.image.frame.voxel_diagonal_mm();
-  const ImageBoundary boundary(p.image, {});
-  const std::vector<InterfacePoint> points;
-  const PatchRules rules{boundary, {0.15 * diagonal_mm, diagonal_mm}, points, 0.9 * diagonal_mm};
+  const ImageDomain domain(p.image);
+  const std::vector<BoundarySample> none;
+  const PatchRules rules{.boundaries = {domain},
+                         .guards = {0.15 * diagonal_mm, diagonal_mm},
+                         .samples = none,
+                         .reach_mm = 0.9 * diagonal_mm};
   for ([[maybe_unused]] const auto _ : state) {
     MaterialMesh mesh = p.mesh;
-    std::vector<VertexId> hosts;
-    improve_in_patches(mesh, hosts, rules, 0, [](Patch& patch) { relax_vertices(patch, {1000, 0.5, 0}); });
+    std::vector<VertexId> covering;
+    improve_in_patches(mesh, covering, rules, 0, [](Patch& patch) { relax_vertices(patch, {1000, 0.5, 0}); });
     benchmark::DoNotOptimize(mesh.points.data());
   }
   const auto vertices = static_cast<double>(p.mesh.points.size());
