@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "mesher/core/atomic_file.hpp"
+#include "mesher/core/error.hpp"
 #include "reports/charts/pictures.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/commands/selection.hpp"

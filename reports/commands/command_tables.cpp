@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "cases/manifest.hpp"
+#include "mesher/core/error.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/output/output.hpp"
 #include "reports/run/workplace.hpp"

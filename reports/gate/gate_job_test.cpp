@@ -7,7 +7,7 @@ namespace {
 
 using metrics::metric_id;
 
-Json line(int repeat, double cpu_s, double reference_s, int tets) {
+Json gate_line(int repeat, double cpu_s, double reference_s, int tets) {
   Json result = empty_result();
   result["case"] = "box";
   result["mesher"] = "cgal";
@@ -25,7 +25,7 @@ Json line(int repeat, double cpu_s, double reference_s, int tets) {
 
 TEST(GateJob, RepeatsAreOne) {
   const std::vector<GateJob> jobs =
-      gate_jobs(decode_lines({line(0, 3, 0.5, 7), line(1, 2, 1, 7), line(2, 4, 2, 7)}));
+      gate_jobs(decode_lines({gate_line(0, 3, 0.5, 7), gate_line(1, 2, 1, 7), gate_line(2, 4, 2, 7)}));
   ASSERT_EQ(jobs.size(), 1U);
   EXPECT_EQ(jobs[0].name, "box, cgal, 1 thread");
   EXPECT_EQ(jobs[0].figures[metric_id("quality.min_dihedral_deg")], 11);  // the median
@@ -37,12 +37,12 @@ TEST(GateJob, RepeatsAreOne) {
 }
 
 TEST(GateJob, DifferentRepeatsAndFailuresAreSaid) {
-  EXPECT_EQ(gate_jobs(decode_lines({line(0, 1, 1, 7), line(1, 1, 1, 8)}))[0].first_difference,
+  EXPECT_EQ(gate_jobs(decode_lines({gate_line(0, 1, 1, 7), gate_line(1, 1, 1, 8)}))[0].first_difference,
             "counts.tets is 7 in repeat 0 and 8 in repeat 1");
-  Json bad = line(1, 1, 1, 7);
+  Json bad = gate_line(1, 1, 1, 7);
   bad["status"] = "timeout";
   bad["reason"] = "not done after 5 s";
-  EXPECT_EQ(gate_jobs(decode_lines({line(0, 1, 1, 7), bad}))[0].failure, "timeout: not done after 5 s");
+  EXPECT_EQ(gate_jobs(decode_lines({gate_line(0, 1, 1, 7), bad}))[0].failure, "timeout: not done after 5 s");
 }
 
 TEST(GateJob, GatedMetricsAreFoundByTheirKeys) {
