@@ -84,7 +84,7 @@ LabelAt speckle(std::uint64_t seed, double share, int labels) {
 
 constexpr Index3 kBall{17, 17, 17};
 
-/// A NIfTI-1 header of four axes, the last of one volume, before one byte a voxel of a ball.
+/// A NIfTI-1 header of four axes, the last of one volume, followed by a ball with one byte per voxel.
 void write_four_axes(const fs::path& file) {
   std::array<char, 352> header{};
   const auto put = [&](std::size_t at, auto value) { std::memcpy(header.data() + at, &value, sizeof value); };

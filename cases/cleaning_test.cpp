@@ -8,7 +8,7 @@ namespace cbc3d::cases {
 namespace {
 
 /// Contacts of label 1, by looking at all 2x2x2 cells; shares no code with the cleaning. A cell's eight
-/// voxels are the bits of a byte; the byte tells whether two of them touch by an edge or a vertex only.
+/// voxels are the bits of a byte; the byte says whether two of them touch only by an edge or a vertex.
 bool has_contact(unsigned cell) {
   for (unsigned a = 0; a < 8; ++a) {
     for (unsigned b = a + 1; b < 8; ++b) {

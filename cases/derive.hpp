@@ -10,8 +10,8 @@ namespace cbc3d::cases {
 /// the smallest of them. Returns the number of voxels filled.
 std::size_t fill_holes(LabelImage& image);
 
-/// Copies of an image side by side, so many along each axis (all at least 1): an image of more voxels with as
-/// much surface a voxel. Its first copy lies where the image does.
+/// Copies of an image side by side, `copies` (at least 1) of them along each axis: an image of more voxels
+/// with the same surface per voxel. Its first copy lies where the image does.
 LabelImage repeated(const LabelImage& image, const Index3& copies);
 
 }  // namespace cbc3d::cases

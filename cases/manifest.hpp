@@ -24,7 +24,7 @@ struct ResolvedImage {
 };
 
 /// Finds a case's image in the data folders, in order, and checks its sha256; or generates its phantom under
-/// `cache_dir` (created where absent), once: the file name tells all arguments. What the case derives from it
+/// `cache_dir` (created where absent), once: the file name holds all arguments. What the case derives from it
 /// is written there too, once. Throws InputError when the image to derive from cannot be read, JobError when
 /// a file cannot be written or a phantom's voxels are not those whose sha256 the case has.
 ResolvedImage resolve_image(const Case& which, const std::vector<std::filesystem::path>& data_dirs,

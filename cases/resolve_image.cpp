@@ -91,7 +91,7 @@ std::string name_of(const Derivation& derivation) {
   return name;
 }
 
-/// The digest of a file's content, or the name of a phantom, tells what a derived image was made from.
+/// The digest of a file's content, or the name of a phantom, identifies what a derived image was made from.
 ResolvedImage derive(const Case& which, const ResolvedImage& source, const fs::path& cache_dir) {
   const std::string origin = which.phantom ? source.path.stem().string() : which.image_sha256;
   const fs::path path = cache_dir / (origin + name_of(which.derive) + ".nrrd");

@@ -1,14 +1,23 @@
+// The function stands in manifest.hpp.
 #include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <sstream>
 
 #include "cases/core/sha256.hpp"
 #include "cases/core/testing_folder.hpp"
+#include "cases/derive.hpp"
 #include "cases/manifest.hpp"
 #include "cases/phantoms/registry.hpp"
+#include "cases/testing_two_blocks.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 
 namespace cbc3d::cases {
 namespace {
+
+using test::clear;
+using test::two_blocks;
 
 // FIPS 180-2's test vectors.
 constexpr const char* kShaOfAbc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
@@ -26,17 +35,13 @@ bool says(const ResolvedImage& image, const std::string& what) {
   return image.skipped_reason.find(what) != std::string::npos;
 }
 
-TEST(Sha256, KnownDigests) {
-  const test::Folder folder("sha");
-  folder.write("abc", "abc");
-  folder.write("nothing", "");
-  EXPECT_EQ(sha256_of_file(folder.path() / "abc"), kShaOfAbc);
-  EXPECT_EQ(sha256_of_file(folder.path() / "nothing"), kShaOfNothing);
-  EXPECT_EQ(sha256_of_text("abc"), kShaOfAbc);
-  folder.write("million", std::string(1000000, 'a'));
-  EXPECT_EQ(sha256_of_file(folder.path() / "million"),
-            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
-  EXPECT_THROW(sha256_of_file(folder.path() / "absent"), InputError);
+/// A case of the image, which is written to a data folder.
+Case file_case(const LabelImage& image, const std::filesystem::path& folder) {
+  write_label_image(image, folder / "one.nrrd");
+  Case one;
+  one.image_file = "one.nrrd";
+  one.image_sha256 = sha256_of_file(folder / "one.nrrd");
+  return one;
 }
 
 TEST(ResolveImage, FileIsFoundByItsDigest) {
@@ -84,6 +89,59 @@ TEST(ResolveImage, PhantomIsGeneratedOnce) {
   EXPECT_EQ(std::filesystem::last_write_time(first.path), written);
   one.phantom->seed = 5;
   EXPECT_NE(resolve_image(one, {}, cache).path, first.path);
+}
+
+TEST(ResolveImage, DerivedImagesOfOneSourceAreTold) {
+  const test::Folder data("data"), folder("cache");
+  LabelImage image = two_blocks();
+  clear(image, {4, 4, 4});
+  Case one = file_case(image, data.path());
+  one.derive.repeat = {2, 1, 1};
+  const auto twice = resolve_image(one, {data.path()}, folder.path());
+  EXPECT_EQ(read_label_image(twice.path).voxels, repeated(image, {2, 1, 1}).voxels);
+  one.derive.fill_holes = true;
+  const auto filled = resolve_image(one, {data.path()}, folder.path());
+  EXPECT_EQ(read_label_image(filled.path).voxels, repeated(two_blocks(), {2, 1, 1}).voxels);
+}
+
+TEST(ResolveImage, DerivedImageIsWrittenOnceAndItsSourceChecked) {
+  const test::Folder data("data"), folder("cache");
+  const auto cache = folder.path() / "images";
+  LabelImage image = two_blocks();
+  clear(image, {4, 4, 4});
+  Case one = file_case(image, data.path());
+  one.derive.fill_holes = true;
+  const auto found = resolve_image(one, {data.path()}, cache);
+  ASSERT_EQ(found.skipped_reason, "");
+  EXPECT_EQ(found.path.parent_path(), cache);
+  EXPECT_EQ(read_label_image(found.path).voxels, two_blocks().voxels);
+  const auto written = std::filesystem::last_write_time(found.path);
+  EXPECT_EQ(resolve_image(one, {data.path()}, cache).path, found.path);
+  EXPECT_EQ(std::filesystem::last_write_time(found.path), written);
+  one.image_sha256[0] = one.image_sha256[0] == '0' ? '1' : '0';
+  EXPECT_NE(resolve_image(one, {data.path()}, cache).skipped_reason, "");
+}
+
+TEST(ResolveImage, NidusHasNinetySixHoleVoxels) {
+  const char* variable = std::getenv("CBC3D_DATA");
+  std::vector<std::filesystem::path> folders;
+  std::istringstream list(variable == nullptr ? "" : variable);
+  for (std::string folder; std::getline(list, folder, ':');) {
+    folders.emplace_back(folder);
+  }
+  const test::Folder cache("cache");
+  const auto cases = load_cases(CBC3D_MANIFESTS);
+  for (const Case& one : cases) {
+    if (one.name == "nidus-filled") {
+      const auto filled = resolve_image(one, folders, cache.path());
+      if (!filled.skipped_reason.empty()) {
+        GTEST_SKIP() << filled.skipped_reason;
+      }
+      EXPECT_EQ(read_label_image(filled.path).voxels_per_material()[1], 67020U + 92 + 3 + 1);
+      return;
+    }
+  }
+  FAIL() << "no case nidus-filled";
 }
 
 }  // namespace

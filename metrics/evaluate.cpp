@@ -4,12 +4,16 @@
 
 #include "metrics/cells.hpp"
 #include "metrics/element_quality.hpp"
+#include "metrics/element_shape.hpp"
 #include "metrics/faults.hpp"
 #include "metrics/fidelity.hpp"
+#include "metrics/gradation.hpp"
 #include "metrics/self_intersection.hpp"
 #include "metrics/summary.hpp"
 #include "metrics/surface.hpp"
+#include "metrics/surface_shape.hpp"
 #include "metrics/topology.hpp"
+#include "metrics/topology_difference.hpp"
 
 namespace cbc3d::metrics {
 namespace {
@@ -44,17 +48,22 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const MeshQuality quality = element_quality(view);
   json result{{"counts", counts_of(mesh)}};
   result["quality"] = to_json(quality, view);
+  write_json(result["quality"], element_shape(view));
   progress.step("topology", 0.1);
   std::vector<Facet> facets = sorted_facets(view);
   const Surface surface = extract_surface(view, facets);
   const Topology connected = topology(view, facets, surface);
+  write_json(result["quality"], gradation(view, facets, surface), view);
   facets = {};
+  result["surface"] = to_json(surface_shapes(view, image, surface), view);
   progress.step("self-intersections", 0.2);
   const SelfIntersections crossing = self_intersections(view, surface);
   progress.step("topology of the image", 0.25);
   const ImageTopology in_image = image_topology(image);
   result["topology"] = to_json(connected, view, in_image, image);
   write_json(result["topology"], crossing, view, surface);
+  const TopologyDifference difference = topology_difference(view, surface, connected, in_image, image);
+  write_json(result["topology"], difference, in_image, image);
   const FidelityOptions how = fidelity_options(options, image.frame);
   const Fidelity near = fidelity(view, image, surface, how, progress);
   result["fidelity"] = to_json(near, how);

@@ -23,9 +23,10 @@ struct EvaluateOptions {
 
 /// Judges `mesh` (physical LPS mm) against `image`. Returns an object with exactly the keys
 ///   counts    vertices, tets, pyramids, wedges, hexes;
-///   quality   see element_quality.hpp;
+///   quality   see element_quality.hpp, element_shape.hpp and gradation.hpp;
+///   surface   see surface_shape.hpp;
 ///   fidelity  see fidelity.hpp;
-///   topology  see topology.hpp and self_intersection.hpp;
+///   topology  see topology.hpp, topology_difference.hpp and self_intersection.hpp;
 ///   summary  the few figures to look at first, see summary.hpp;
 ///   shape     only with EvaluateOptions::shapes: the mesh against them, see shape_comparison.hpp;
 ///   faults    what is wrong with the mesh, a line each, see faults.hpp.

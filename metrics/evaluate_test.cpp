@@ -31,7 +31,7 @@ void expect_near(const json& a, const json& b, double tolerance, const std::stri
 TEST(Evaluate, TheVoxelsThemselvesAreAPerfectMesh) {
   const LabelImage image = test::two_boxes();
   const json result = test::judge(test::kuhn_mesh(image), image);
-  EXPECT_EQ(result.size(), 6U);
+  EXPECT_EQ(result.size(), 7U);
   // The helper lists every corner of the voxel grid: 10 * 9 * 8, of which the boxes have 6 * 5 * 4.
   ASSERT_EQ(result["faults"].size(), 1U);
   EXPECT_EQ(result["faults"][0].get<std::string>().rfind("600 vertices of no cell, first vertex 0 at (", 0),

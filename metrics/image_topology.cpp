@@ -11,45 +11,6 @@
 namespace cbc3d::metrics {
 namespace {
 
-// Eight times what a corner of the voxel grid adds to the Euler characteristic, by which of the 8 voxels at
-// it (bit x + 2y + 4z) are in the set. The corner has 6 half edges and 12 quarter faces; each belongs to 2
-// and to 4 corners, each voxel to 8.
-struct CornerTables {
-  std::array<int, 256> closed, open;
-};
-
-CornerTables corner_tables() {
-  CornerTables tables{};
-  for (unsigned mask = 0; mask < 256; ++mask) {
-    const auto in = [mask](unsigned x, unsigned y, unsigned z) {
-      return (mask >> (x + 2 * y + 4 * z) & 1U) != 0;
-    };
-    const auto at = [&in](unsigned axis, unsigned a, unsigned u, unsigned v) {
-      return axis == 0 ? in(a, u, v) : axis == 1 ? in(u, a, v) : in(u, v, a);
-    };
-    int voxels = 0, any_edges = 0, all_edges = 0, any_faces = 0, all_faces = 0;
-    for (unsigned voxel = 0; voxel < 8; ++voxel) {
-      voxels += static_cast<int>(mask >> voxel & 1U);
-    }
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      for (unsigned side = 0; side < 2; ++side) {
-        const int count =
-            at(axis, side, 0, 0) + at(axis, side, 0, 1) + at(axis, side, 1, 0) + at(axis, side, 1, 1);
-        any_edges += count > 0 ? 1 : 0;
-        all_edges += count == 4 ? 1 : 0;
-      }
-      for (unsigned quarter = 0; quarter < 4; ++quarter) {
-        const int count = at(axis, 0, quarter & 1U, quarter >> 1U) + at(axis, 1, quarter & 1U, quarter >> 1U);
-        any_faces += count > 0 ? 1 : 0;
-        all_faces += count == 2 ? 1 : 0;
-      }
-    }
-    tables.closed[mask] = (mask != 0 ? 8 : 0) - 4 * any_edges + 2 * any_faces - voxels;
-    tables.open[mask] = voxels - 2 * all_faces + 4 * all_edges - (mask == 255 ? 8 : 0);
-  }
-  return tables;
-}
-
 struct CornerSums {
   std::int64_t closed = 0, open = 0, ambiguous = 0;  // the first two times eight
 
@@ -355,6 +316,38 @@ VoxelSetTopology set_topology(const Regions& regions, const CornerSums& sums, co
 }
 
 }  // namespace
+
+CornerTables corner_tables() {
+  CornerTables tables{};
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    const auto in = [mask](unsigned x, unsigned y, unsigned z) {
+      return (mask >> (x + 2 * y + 4 * z) & 1U) != 0;
+    };
+    const auto at = [&in](unsigned axis, unsigned a, unsigned u, unsigned v) {
+      return axis == 0 ? in(a, u, v) : axis == 1 ? in(u, a, v) : in(u, v, a);
+    };
+    int voxels = 0, any_edges = 0, all_edges = 0, any_faces = 0, all_faces = 0;
+    for (unsigned voxel = 0; voxel < 8; ++voxel) {
+      voxels += static_cast<int>(mask >> voxel & 1U);
+    }
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      for (unsigned side = 0; side < 2; ++side) {
+        const int count =
+            at(axis, side, 0, 0) + at(axis, side, 0, 1) + at(axis, side, 1, 0) + at(axis, side, 1, 1);
+        any_edges += count > 0 ? 1 : 0;
+        all_edges += count == 4 ? 1 : 0;
+      }
+      for (unsigned quarter = 0; quarter < 4; ++quarter) {
+        const int count = at(axis, 0, quarter & 1U, quarter >> 1U) + at(axis, 1, quarter & 1U, quarter >> 1U);
+        any_faces += count > 0 ? 1 : 0;
+        all_faces += count == 2 ? 1 : 0;
+      }
+    }
+    tables.closed[mask] = (mask != 0 ? 8 : 0) - 4 * any_edges + 2 * any_faces - voxels;
+    tables.open[mask] = voxels - 2 * all_faces + 4 * all_edges - (mask == 255 ? 8 : 0);
+  }
+  return tables;
+}
 
 ImageTopology image_topology(const LabelImage& image) {
   const AllCornerSums sums = corner_sums(image);

@@ -7,39 +7,13 @@
 #include <tuple>
 
 #include "metrics/disjoint_sets.hpp"
+#include "metrics/vertex_cells.hpp"
 
 namespace cbc3d::metrics {
 namespace {
 
 // Which class (set of cells) a cell is in.
 using ClassOf = std::vector<std::uint32_t>;
-
-// The cells at every vertex.
-struct VertexCells {
-  std::vector<std::uint64_t> first;
-  std::vector<std::uint32_t> cells;
-
-  explicit VertexCells(const MeshView& view) : first(view.mesh().points.size() + 1, 0) {
-    for (std::size_t c = 0; c < view.cell_count(); ++c) {
-      for (const VertexId v : view.cell(c).nodes) {
-        ++first[v + 1];
-      }
-    }
-    for (std::size_t v = 1; v < first.size(); ++v) {
-      first[v] += first[v - 1];
-    }
-    cells.resize(first.back());
-    std::vector<std::uint64_t> next(first.begin(), first.end() - 1);
-    for (std::size_t c = 0; c < view.cell_count(); ++c) {
-      for (const VertexId v : view.cell(c).nodes) {
-        cells[next[v]++] = static_cast<std::uint32_t>(c);
-      }
-    }
-  }
-  [[nodiscard]] std::span<const std::uint32_t> at(VertexId v) const {
-    return {cells.data() + first[v], cells.data() + first[v + 1]};
-  }
-};
 
 // Calls visit(next, previous) for the neighbours of v in each face of the cell that holds it.
 template <class Visit>

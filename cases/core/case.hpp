@@ -18,7 +18,7 @@ struct Phantom {
   Index3 size{0, 0, 0};  ///< voxels along each axis
   Vec3 spacing_mm{1, 1, 1};
   std::uint64_t seed = 0;
-  std::string sha256;  ///< of the labels, one byte a voxel, i fastest; empty: not checked
+  std::string sha256;  ///< of the labels, one byte per voxel, i fastest; empty: not checked
 };
 
 /// What is done to the image before any mesher sees it, in this order; see derive.hpp.

@@ -45,7 +45,7 @@ const PhantomKind& require_kind(const Phantom& phantom);
 LabelImage make_phantom(const Phantom& phantom);
 
 /// Makes a phantom as a file (atomic; formats as write_label_image) and returns the SHA-256 of its labels,
-/// one byte a voxel, i fastest. Above `streamed_voxels` it is made slab by slab and written to an
+/// one byte per voxel, i fastest. Above `streamed_voxels` it is made slab by slab and written to an
 /// uncompressed .nrrd, so that memory never holds more than a slab. Throws as make_phantom, InputError also
 /// for an image of that size in another format, JobError when writing fails.
 std::string write_phantom(const Phantom& phantom, const std::filesystem::path& path,

@@ -45,7 +45,7 @@ class Tubes {
   }
 
   /// Least of the cones' signed distances: exact outside; inside exact unless cones overlap there, where the
-  /// boundary is at least so far away.
+  /// boundary is at least that far away.
   [[nodiscard]] double distance_mm(const Vec3& local_mm) const;
   /// Gives the voxels of slice k whose centres the tubes hold this material. `slice`: its size[0] * size[1]
   /// voxels.

@@ -1,22 +1,21 @@
-// Voxels in one byte while that is enough, mapped files that are written to in memory only, rows passed over
-// in words, and offsets beyond 32 bits.
-#include "mesher/core/label_voxels.hpp"
-
+// Voxels in one byte while that is enough, mapped files that are written to in memory only, and offsets
+// beyond 32 bits.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/voxel_bits.hpp"
+#include "mesher/core/label_voxels.hpp"
 #include "mesher/core/voxel_rows.hpp"
-#include "mesher/preprocess/voxel_regions.hpp"
-#include "mesher/testing/test_images.hpp"
 
 namespace cbc3d {
 namespace {
+
 namespace fs = std::filesystem;
 
 TEST(LabelVoxels, WidenWhenOneByteIsTooLittle) {
@@ -51,23 +50,6 @@ TEST(LabelVoxels, AreEqualByWhatTheyHold) {
   const LabelVoxels moved = std::move(copy);
   EXPECT_EQ(moved[0], 1);
   EXPECT_EQ(moved[2], 256);
-}
-
-TEST(LabelVoxels, SplittingWidensAnImageOfManyRegions) {
-  LabelImage image = testing::make_image({61, 11, 1}, {1, 1, 1}, 1, [](const Vec3& p) {
-    return std::lround(p.x) % 2 == 0 && std::lround(p.y) % 2 == 0 ? 1 : 0;
-  });
-  EXPECT_FALSE(image.voxels.is_wide());
-  EXPECT_EQ(split_regions(image).regions, 31U * 6U);
-  EXPECT_FALSE(image.voxels.is_wide());  // 186 materials
-  image = testing::make_image({61, 21, 1}, {1, 1, 1}, 1, [](const Vec3& p) {
-    return std::lround(p.x) % 2 == 0 && std::lround(p.y) % 2 == 0 ? 1 : 0;
-  });
-  EXPECT_EQ(split_regions(image).regions, 31U * 11U);
-  EXPECT_TRUE(image.voxels.is_wide());
-  std::vector<std::size_t> voxels = image.voxels_per_material();
-  voxels.erase(voxels.begin());
-  EXPECT_EQ(voxels, std::vector<std::size_t>(31 * 11, 1));
 }
 
 class MappedLabels : public ::testing::Test {
@@ -139,64 +121,6 @@ TEST_F(MappedLabels, BeyondFourThousandMillion) {
   std::vector<int> found;
   BoundaryRows(image).find(65537, 0, found);
   EXPECT_EQ(found, std::vector<int>{7});
-}
-
-TEST(VoxelRows, BoundaryVoxelsAreThoseOfTheDefinition) {
-  for (const int materials : {2, 300}) {
-    std::mt19937 random(5);
-    LabelImage image = testing::make_image({37, 9, 7}, {1, 1, 1}, materials, [](const Vec3&) { return 0; });
-    image.voxels.hold(image.material_count());
-    for (std::size_t v = 0; v < image.voxels.size(); ++v) {  // long runs with a few changes
-      image.voxels[v] = static_cast<MaterialId>(random() % 12 != 0 && v > 0 ? MaterialId{image.voxels[v - 1]}
-                                                                            : random() % 3 * (materials / 2));
-    }
-    const BoundaryRows rows(image);
-    for (int k = 0; k < 7; ++k) {
-      for (int j = 0; j < 9; ++j) {
-        std::vector<int> found, expected;
-        rows.find(j, k, found);
-        for (int i = 0; i < 37; ++i) {
-          if (image.at(i, j, k) != kBackground && is_boundary_voxel(image, i, j, k)) {
-            expected.push_back(i);
-          }
-        }
-        EXPECT_EQ(found, expected);
-      }
-    }
-  }
-}
-
-TEST(VoxelRows, RunsEndWhereTheValueChanges) {
-  std::vector<std::uint16_t> row(50, 513);
-  EXPECT_EQ(end_of_run(row.data(), 3, 50), 50);
-  for (int at = 4; at < 50; ++at) {
-    row.assign(50, 513);
-    row[static_cast<std::size_t>(at)] = 1;  // the low byte alone would not tell
-    EXPECT_EQ(end_of_run(row.data(), 3, 50), at);
-    EXPECT_EQ(end_of_run(row.data(), 3, at), at);
-  }
-}
-
-TEST(VoxelBits, AreFoundInRanges) {
-  VoxelBits bits(300);
-  for (const std::size_t v : {0U, 63U, 64U, 130U, 299U}) {
-    bits.set(v);
-  }
-  for (std::size_t begin = 0; begin < 300; begin += 7) {
-    for (std::size_t end = begin; end <= 300; end += 13) {
-      std::vector<std::size_t> found, expected;
-      bits.for_each(begin, end, [&](std::size_t v) { found.push_back(v); });
-      for (std::size_t v = begin; v < end; ++v) {
-        if (bits.test(v)) {
-          expected.push_back(v);
-        }
-      }
-      EXPECT_EQ(found, expected);
-      EXPECT_EQ(bits.any(begin, end), !expected.empty());
-    }
-  }
-  bits.clear();
-  EXPECT_FALSE(bits.any(0, 300));
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "mesher/core/terminal_progress.hpp"
-
 namespace cbc3d {
 namespace {
 
@@ -34,28 +32,6 @@ TEST(Progress, FalseCancelsAndNamesTheStep) {
   } catch (const Cancelled& cancelled) {
     EXPECT_STREQ(cancelled.what(), "cancelled before the step 'b'");
   }
-}
-
-std::string printed(bool quiet) {
-  testing::internal::CaptureStderr();
-  {
-    TerminalProgress progress(quiet);
-    const Progress& base = progress;
-    base.step("meshing", 0.5);
-    progress.line("said");
-    progress.line("important", true);
-  }
-  return testing::internal::GetCapturedStderr();
-}
-
-TEST(TerminalProgress, PrintsLinesWhereThereIsNoTerminal) {
-  const std::string text = printed(false);
-  EXPECT_NE(text.find(" 50 % meshing\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("said\nimportant\n"), std::string::npos) << text;
-}
-
-TEST(TerminalProgress, WhenQuietOnlyImportantLines) {
-  EXPECT_EQ(printed(true), "important\n");
 }
 
 }  // namespace

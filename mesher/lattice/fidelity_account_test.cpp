@@ -1,10 +1,13 @@
-// The account of voxels in sub-meshes against counting them all, and coverage against looking at every
-// vertex.
+// The account of voxels in sub-meshes, against counting them all.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <random>
+#include <utility>
+#include <vector>
 
-#include "mesher/domain/coverage.hpp"
 #include "mesher/domain/size_rank.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/fidelity_account.hpp"
@@ -14,19 +17,7 @@
 namespace cbc3d {
 namespace {
 
-/// Blocks of labels with noise, so that many tets are pure and many are not.
-LabelImage blocks_image(int materials, std::uint32_t seed) {
-  std::mt19937 random(seed);
-  std::vector<int> of_block(512);
-  for (int& m : of_block) {
-    m = static_cast<int>(random() % static_cast<unsigned>(materials + 1));
-  }
-  return testing::make_image({32, 28, 24}, {1, 0.9, 1.3}, materials, [&](const Vec3& p) {
-    const auto block = static_cast<std::size_t>(p.x / 9) * 64 + static_cast<std::size_t>(p.y / 9) * 8 +
-                       static_cast<std::size_t>(p.z / 9);
-    return random() % 200 == 0 ? 1 : of_block[block];
-  });
-}
+using testing::noisy_blocks_image;
 
 /// A lattice, its tets and a material for each.
 struct Labelled {
@@ -91,7 +82,7 @@ void expect_counted_right(const Labelled& mesh, const FidelityAccount& account) 
 
 TEST(FidelityAccount, CountsAsOneThatLooksAtEveryVoxel) {
   for (const int materials : {1, 3, 20}) {
-    Labelled mesh(blocks_image(materials, 5), 6);
+    Labelled mesh(noisy_blocks_image(materials, 5), 6);
     FidelityAccount account(mesh.image, mesh.raster, count_materials(mesh.image).count);
     FidelityAccount::Changes changes = account.no_changes();
     std::vector<ForeignMaterials> foreign;
@@ -119,7 +110,7 @@ TEST(FidelityAccount, CountsAsOneThatLooksAtEveryVoxel) {
 
 TEST(FidelityAccount, TellsWhichTetsHoldVoxelsOfAnUnmetMaterial) {
   for (const int materials : {3, 20}) {  // more than there are bits, too
-    const Labelled mesh(blocks_image(materials, 9), 2);
+    const Labelled mesh(noisy_blocks_image(materials, 9), 2);
     const FidelityAccount account(mesh.image, mesh.raster, count_materials(mesh.image).count);
     std::vector<std::uint8_t> unmet(mesh.image.material_count(), 0);
     unmet[2] = unmet[3] = 1;
@@ -137,38 +128,6 @@ TEST(FidelityAccount, TellsWhichTetsHoldVoxelsOfAnUnmetMaterial) {
       misjudged += expected ? 1 : 0;
     }
     EXPECT_GT(misjudged, 20U);
-  }
-}
-
-TEST(BoundaryCoverage, FindsWhatHasNoVertexOfItsMaterialNear) {
-  const LabelImage image = blocks_image(4, 3);
-  std::mt19937 random(8);
-  std::vector<Vec3> points;
-  std::vector<SurfaceVertex> surface;
-  for (VertexId v = 0; v < 60; ++v) {
-    points.push_back({static_cast<double>(random() % 320) / 10, static_cast<double>(random() % 250) / 10,
-                      static_cast<double>(random() % 310) / 10});
-    surface.push_back({v, static_cast<MaterialId>(1 + random() % 4)});
-  }
-  BoundaryCoverage coverage(image);
-  for (const double distance_mm : {3.0, 7.0}) {
-    coverage.update(surface, points, distance_mm);
-    std::size_t uncovered = 0;
-    for (std::size_t v = 0; v < image.voxels.size(); ++v) {
-      const Index3 at = image.frame.index_of(v);
-      const MaterialId own = image.voxels[v];
-      if (own == kBackground || !is_boundary_voxel(image, at[0], at[1], at[2])) {
-        continue;
-      }
-      const Vec3 centre = image.frame.local_centre(at[0], at[1], at[2]);
-      const bool covered = std::any_of(surface.begin(), surface.end(), [&](const SurfaceVertex& s) {
-        return s.material == own && (points[s.vertex] - centre).norm() <= distance_mm;
-      });
-      uncovered += covered ? 0 : 1;
-      EXPECT_TRUE(covered || coverage.wants_refinement(at[1], at[2], at[0], at[0] + 1));
-    }
-    EXPECT_EQ(coverage.uncovered_count(), uncovered);
-    EXPECT_GT(uncovered, 100U);
   }
 }
 

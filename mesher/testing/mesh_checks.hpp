@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -97,6 +99,21 @@ inline std::size_t inverted_tets(const TetNodes& tets, const std::vector<Vec3>& 
   return static_cast<std::size_t>(std::count_if(tets.begin(), tets.end(), [&](const auto& n) {
     return !(six_volumes(points[n[0]], points[n[1]], points[n[2]], points[n[3]]) > 0);
   }));
+}
+
+/// Mean angle between the true normals of a ball and those of the facets of its surface, by area, degrees.
+inline double normal_error_deg(const std::vector<FaceKey>& surface, const std::vector<Vec3>& points,
+                               const Vec3& centre) {
+  double sum = 0;
+  double areas = 0;
+  for (const FaceKey& f : surface) {
+    const Vec3 normal = (points[f[1]] - points[f[0]]).cross(points[f[2]] - points[f[0]]);
+    const Vec3 outwards = (points[f[0]] + points[f[1]] + points[f[2]]) / 3 - centre;
+    const double cosine = std::abs(normal.normalized().dot(outwards.normalized()));
+    sum += normal.norm() * std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi;
+    areas += normal.norm();
+  }
+  return sum / areas;
 }
 
 }  // namespace cbc3d::testing

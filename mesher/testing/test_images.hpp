@@ -1,6 +1,7 @@
 // Small images and mesh checks that the mesher's tests share.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <random>
@@ -42,6 +43,44 @@ inline LabelImage ball_image(int size, double spacing_mm, double radius_mm, doub
                       const double r = (p - Vec3{c, c, c}).norm();
                       return r <= core_mm ? 2 : r <= radius_mm ? 1 : 0;
                     });
+}
+
+inline LabelImage touching_balls() {
+  return make_image({26, 18, 18}, {1, 1, 1}, 2, [](const Vec3& p) {
+    return (p - Vec3{8.2, 8.6, 8.5}).norm() < 6.1 ? 1 : (p - Vec3{17, 8.4, 8.7}).norm() < 6.3 ? 2 : 0;
+  });
+}
+
+/// Label 1: a ball with a cavity (two spheres); label 2: a torus that goes around nothing.
+inline LabelImage cavity_and_torus() {
+  return make_image({42, 26, 18}, {1, 1, 1}, 2, [](const Vec3& p) {
+    const double r = (p - Vec3{9, 12, 8.5}).norm();
+    const Vec3 q = p - Vec3{29, 12.5, 8.5};
+    const double ring = std::hypot(q.x, q.y) - 7;
+    return r < 7 && r > 3 ? 1 : std::hypot(ring, q.z) < 2.8 ? 2 : 0;
+  });
+}
+
+/// Blocks of labels with noise, so that many tets are pure and many are not.
+inline LabelImage noisy_blocks_image(int materials, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<int> of_block(512);
+  for (int& m : of_block) {
+    m = static_cast<int>(random() % static_cast<unsigned>(materials + 1));
+  }
+  return make_image({32, 28, 24}, {1, 0.9, 1.3}, materials, [&](const Vec3& p) {
+    const auto block = static_cast<std::size_t>(p.x / 9) * 64 + static_cast<std::size_t>(p.y / 9) * 8 +
+                       static_cast<std::size_t>(p.z / 9);
+    return random() % 200 == 0 ? 1 : of_block[block];
+  });
+}
+
+/// A block of two materials, so that there are an interface and coarse insides.
+inline LabelImage block_image() {
+  return make_image({56, 44, 44}, {1, 1, 1}, 2, [](const Vec3& p) {
+    const bool inside = p.x > 2 && p.x < 53 && p.y > 2 && p.y < 41 && p.z > 2 && p.z < 41;
+    return !inside ? 0 : p.x + 0.2 * p.y < 30 ? 1 : 2;
+  });
 }
 
 /// Seeded noise of the given density over two materials, with an empty rim.

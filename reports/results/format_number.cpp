@@ -13,7 +13,7 @@ std::string format_number(double value, int decimals) {
   std::size_t at = std::min(text.find('.'), text.size());
   while (first_digit != std::string::npos && at > first_digit + 3) {
     at -= 3;
-    text.insert(at, ",");
+    text.insert(at, 1, ',');
   }
   return text;
 }

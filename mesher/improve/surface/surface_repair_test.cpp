@@ -1,41 +1,32 @@
-// The end game: faults of surfaces counted, and mended by changes that no single step would make.
+// Defects of surfaces that are repaired by changes which no single step would make.
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <set>
+#include <vector>
 
 #include "mesher/improve/local/tet_shape.hpp"
 #include "mesher/improve/surface/self_intersections.hpp"
 #include "mesher/improve/surface/surface_repair.hpp"
 #include "mesher/improve/surface/testing_layered_mesh.hpp"
-#include "mesher/improve/surface/tet_groups.hpp"
+#include "mesher/testing/mesh_checks.hpp"
 
 namespace cbc3d {
 namespace {
 
 using testing::faults;
+using testing::kNear;
+using testing::kPlane;
+using testing::kSize;
 using testing::open_gap;
+using testing::places;
 using testing::plane_at;
+using testing::points_on_plane;
 using testing::two_layers;
-
-constexpr int kSize = 6;
-constexpr double kPlane = 3;
-constexpr double kNear = 0.6;
-
-/// Boundary voxels on the plane between the layers, one a square.
-std::vector<InterfacePoint> points_on_plane() {
-  std::vector<InterfacePoint> points;
-  for (int j = 0; j < kSize; ++j) {
-    for (int i = 0; i < kSize; ++i) {
-      points.push_back({{static_cast<float>(i + 0.5), static_cast<float>(j + 0.5), float{kPlane}}, 1, 2});
-    }
-  }
-  return points;
-}
-
-ImagePlaces places() {
-  return plane_at(kSize, kPlane, kNear);
-}
+using testing::worst_angle;
 
 /// The layers with a lump of one's tets in the other, which hang together by faces, edges or vertices.
 MaterialMesh with_lump(unsigned seed, std::size_t tets) {
@@ -83,117 +74,6 @@ MendOptions options(double limit_mm) {
   mend.step_mm = 1;
   mend.goal_sine_squared = sine_squared_of_deg(20);
   return mend;
-}
-
-double worst_angle(const MaterialMesh& mesh) {
-  double worst = 1;
-  for (TetId t = 0; t < mesh.tets.size(); ++t) worst = std::min(worst, worst_sine_squared(mesh, {&t, 1}));
-  return worst;
-}
-
-TEST(SurfaceDefects, AreBetterOnlyWhereNothingIsWorse) {
-  const SurfaceDefects base{2, 3, 1.5, 1.2};
-  EXPECT_FALSE(base.is_better_than(base, true));
-  EXPECT_TRUE((SurfaceDefects{1, 3, 1.5, 1.2}.is_better_than(base, false)));
-  EXPECT_TRUE((SurfaceDefects{2, 3, 0, 1.2}.is_better_than(base, false)));
-  EXPECT_FALSE((SurfaceDefects{0, 0, 1.6, 0}.is_better_than(base, true)));
-  EXPECT_FALSE((SurfaceDefects{0, 0, 0, 1.3}.is_better_than(base, true)));
-  EXPECT_FALSE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, false)));
-  EXPECT_TRUE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, true)));  // a cut for a pinch
-  EXPECT_FALSE((SurfaceDefects{3, 3, 0, 0}.is_better_than(base, true)));
-  EXPECT_TRUE((SurfaceDefects{2, 2, 1.5, 1.2, 9}.is_better_than(base, false)));  // folds count last
-  EXPECT_FALSE((SurfaceDefects{3, 3, 1.5, 1.2, 0}.is_better_than({2, 3, 1.5, 1.2, 4}, true)));
-  EXPECT_TRUE((SurfaceDefects{2, 3, 1.5, 1.2, 3}.is_better_than({2, 3, 1.5, 1.2, 4}, false)));
-}
-
-TEST(SurfaceDefects, NoneInCleanLayersAndEachKindWhereItIs) {
-  MaterialMesh mesh = two_layers(kSize, kPlane);
-  const ImagePlaces image = places();
-  std::vector<InterfacePoint> points = points_on_plane();
-  const SurfaceGuide guide{points, image, 1};
-  {
-    const LabelledComplex complex(mesh, image.label_of);
-    EXPECT_TRUE(find_surface_defects(complex, guide).seeds.empty());
-  }
-  // A point beyond the surface's reach is lonely, and its neighbours are known.
-  points.push_back({{3, 3, 4.5F}, 1, 2});
-  {
-    const LabelledComplex complex(mesh, image.label_of);
-    const FaultList faults_found = find_surface_defects(complex, guide);
-    ASSERT_EQ(faults_found.seeds.size(), 1U);
-    for (const VertexId v : faults_found.seeds[0]) {
-      EXPECT_LE((mesh.points[v] - points.back().centre()).norm(), 1.5);
-    }
-    FaultMeter meter(complex, guide);
-    meter.look_at(faults_found.seeds[0]);
-    const FaultMeter::Scope scope = meter.scope_of(faults_found.seeds[0]);
-    EXPECT_NEAR(meter.measure(scope).lonely, 1.5, 1e-6);
-    EXPECT_EQ(meter.lonely_points(scope).size(), 1U);
-  }
-  points.pop_back();
-  // A tet beyond the plane: its tip is far from where both materials belong.
-  const VertexId tip = [&] {
-    for (TetId t = 0;; ++t) {
-      const auto& n = mesh.tets[t];
-      const auto on_plane =
-          std::count_if(n.begin(), n.end(), [&](VertexId v) { return mesh.points[v].z == kPlane; });
-      if (mesh.materials[t] == 2 && on_plane == 3 && mesh.points[n[0]].x == 3 && mesh.points[n[0]].y == 3) {
-        mesh.materials[t] = 1;
-        return *std::max_element(n.begin(), n.end(),
-                                 [&](VertexId a, VertexId b) { return mesh.points[a].z < mesh.points[b].z; });
-      }
-    }
-  }();
-  const LabelledComplex complex(mesh, image.label_of);
-  const FaultList faults_found = find_surface_defects(complex, guide);
-  ASSERT_EQ(faults_found.seeds.size(), 1U);
-  EXPECT_EQ(faults_found.seeds[0], std::vector<VertexId>{tip});
-  EXPECT_EQ(faults_found.cuts, 0U);
-  FaultMeter meter(complex, guide);
-  EXPECT_NEAR(meter.far({tip}), 2, 1e-9);  // one millimetre from the plane, of both
-  EXPECT_EQ(meter.pinches({tip}), 0U);
-}
-
-TEST(TetGroups, AreConnectedOfOneMaterialAndTheSmallestFirst) {
-  MaterialMesh mesh = two_layers(kSize, kPlane);
-  const std::vector<MaterialId> label_of = {0, 1, 2};
-  const LabelledComplex complex(mesh, label_of);
-  const auto middle = static_cast<VertexId>((3 * 7 + 3) * 7 + 3);
-  const auto groups = tet_groups_at(complex, {middle}, 3);
-  std::set<TetGroup> distinct(groups.begin(), groups.end());
-  EXPECT_EQ(distinct.size(), groups.size());
-  double last = 0;
-  for (const TetGroup& group : groups) {
-    ASSERT_TRUE(std::is_sorted(group.begin(), group.end()));
-    EXPECT_GE(volume_mm3(mesh, group), last);
-    last = volume_mm3(mesh, group);
-    TetGroup reached = {group[0]};
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-      EXPECT_EQ(mesh.materials[reached[i]], mesh.materials[group[0]]);
-      for (std::size_t n = 0; n < 4; ++n) {
-        const TetId next = complex.neighbour(reached[i], n);
-        if (std::count(group.begin(), group.end(), next) > 0 &&
-            std::count(reached.begin(), reached.end(), next) == 0) {
-          reached.push_back(next);
-        }
-      }
-    }
-    EXPECT_EQ(reached.size(), group.size());
-  }
-  const auto star = complex.star(middle);
-  std::size_t pairs = 0;
-  for (const TetId t : star) {
-    EXPECT_EQ(distinct.count({t}), 1U);
-    for (const TetId u : star) {
-      for (std::size_t n = 0; n < 4; ++n) {
-        pairs += t < u && complex.neighbour(t, n) == u && mesh.materials[t] == mesh.materials[u] ? 1 : 0;
-        if (t < u && complex.neighbour(t, n) == u && mesh.materials[t] == mesh.materials[u]) {
-          EXPECT_EQ(distinct.count({t, u}), 1U);
-        }
-      }
-    }
-  }
-  EXPECT_GT(pairs, 10U);
 }
 
 /// What relabelling tet by tet, or by a vertex's star, gets stuck at.
@@ -294,22 +174,6 @@ TEST(MendSurfaces, ALonelyBoundaryVoxelIsReached) {
   }
   EXPECT_LE(nearest, 0.75);
   EXPECT_EQ(faults(mesh), 0U);
-}
-
-TEST(FacetsFold, WhereOneLiesInTheTetBehindTheOther) {
-  // Facet 0 1 2 with the tet's vertex 3 below it, and facets at edge 0 1 whose tets lie on their far side.
-  std::vector<Vec3> points = {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {0, 0.5, -1}, {}, {}};
-  const auto fold = [&](const Vec3& to, const Vec3& behind) {
-    points[4] = to;
-    points[5] = behind;
-    return facets_fold(points, {0, 1, 2}, 3, {0, 1, 4}, 5);
-  };
-  EXPECT_FALSE(fold({-1, 0.5, 0.5}, {-1, 0.5, -0.5}));
-  EXPECT_FALSE(fold({0.5, 0.5, 0.1}, {-1, 0.5, 0.5}));            // a narrow gap between the two
-  EXPECT_TRUE(fold({0.5, 0.5, -0.1}, {-1, 0.5, 0.5}));            // none: one within the other's tet
-  EXPECT_TRUE(fold({-1, 0.5, 1}, {1, 0.5, -0.1}));                // likewise the other way round
-  EXPECT_FALSE(facets_fold(points, {0, 1, 2}, 3, {0, 1, 3}, 2));  // two facets of one tet
-  EXPECT_FALSE(facets_fold(points, {0, 1, 2}, 3, {0, 4, 5}, 1));  // one vertex in common
 }
 
 /// Three tets round an axis above a gap, whose lowest vertex is at `level`, and one below it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/improve/local/mesh_star.hpp"
 #include "mesher/improve/surface/relabel_tets.hpp"
 #include "mesher/testing/mesh_checks.hpp"
 
@@ -80,6 +81,33 @@ inline ImagePlaces plane_at(int n, double level, double near) {
             return m == kBackground ? at : Vec3{at.x, at.y, level};
           },
           [=](const Vec3& at) { return MaterialId{static_cast<MaterialId>(at.z < level ? 1 : 2)}; }};
+}
+
+// What most tests look at: a box of kSize cubes whose layers meet at z = kPlane, within kNear of which their
+// surface belongs.
+inline constexpr int kSize = 6;
+inline constexpr double kPlane = 3;
+inline constexpr double kNear = 0.6;
+
+/// Boundary voxels on the plane between the layers, one per square.
+inline std::vector<InterfacePoint> points_on_plane() {
+  std::vector<InterfacePoint> points;
+  for (int j = 0; j < kSize; ++j) {
+    for (int i = 0; i < kSize; ++i) {
+      points.push_back({{static_cast<float>(i + 0.5), static_cast<float>(j + 0.5), float{kPlane}}, 1, 2});
+    }
+  }
+  return points;
+}
+
+inline ImagePlaces places() {
+  return plane_at(kSize, kPlane, kNear);
+}
+
+inline double worst_angle(const MaterialMesh& mesh) {
+  double worst = 1;
+  for (TetId t = 0; t < mesh.tets.size(); ++t) worst = std::min(worst, worst_sine_squared(mesh, {&t, 1}));
+  return worst;
 }
 
 }  // namespace cbc3d::testing

@@ -1,0 +1,175 @@
+// The improvement as a whole: what it keeps, smoothness of the surfaces within a cap, growth of the elements.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mesher/core/runtime.hpp"
+#include "mesher/improve/improve_mesh.hpp"
+#include "mesher/improve/local/graded_sizes.hpp"
+#include "mesher/improve/local/testing_fitted_ball.hpp"
+#include "mesher/improve/surface/volume_correction.hpp"
+#include "mesher/testing/mesh_checks.hpp"
+#include "mesher/testing/test_images.hpp"
+
+namespace cbc3d {
+namespace {
+
+using testing::ball;
+using testing::cut_block;
+using testing::FittedBall;
+using testing::for_each_edge;
+using testing::kBallCentre;
+using testing::normal_error_deg;
+using testing::touching_balls;
+
+/// The lattice mesh of an image after the whole stage. Nearer to the boundary than by default, images of this
+/// size have facets enough to be moved and tets within.
+MaterialMesh improved(const LabelImage& image, ImproveOptions options,
+                      double reach_diagonals = kReachDiagonals) {
+  MaterialMesh mesh = testing::lattice_mesh(image, reach_diagonals);
+  options.reach_mm = reach_diagonals * image.frame.voxel_diagonal_mm();
+  if (reach_diagonals < kReachDiagonals) {
+    options.deviation_diagonals = 0.2;
+  }
+  improve_mesh(mesh, image, options, [](int) {});
+  return mesh;
+}
+
+double normal_error_of_ball(const MaterialMesh& mesh) {
+  return normal_error_deg(testing::surface_of_label(mesh.tets, mesh.materials, MaterialId{1}), mesh.points,
+                          kBallCentre);
+}
+
+TEST(ImproveMesh, LeavesAGoodMeshGoodAndIsRepeatable) {
+  const LabelImage image = touching_balls();
+  MaterialMesh mesh = improved(image, {});
+  MaterialMesh again = mesh;
+  ImproveOptions options;
+  int rounds = 0;
+  const ImproveReport report = improve_mesh(mesh, image, options, [&](int) { ++rounds; });
+  improve_mesh(again, image, options, [](int) {});
+  EXPECT_EQ(mesh.points, again.points);
+  EXPECT_EQ(mesh.tets, again.tets);
+  EXPECT_GT(rounds, 0);
+  EXPECT_LE(report.tets_after, report.tets_before);
+  EXPECT_GE(report.min_dihedral_after_deg, 20);
+  EXPECT_EQ(report.uncovered_points, 0U);
+}
+
+TEST(ImproveMesh, SmoothnessFlattensWithinItsCap) {
+  for (const double cap_mm : {0.05, 0.15, 0.25}) {
+    FittedBall trial(improved(ball(), {}, 0.9), cap_mm);
+    const double before = normal_error_deg(trial.surface(), trial.mesh.points, kBallCentre);
+    const auto near_before = trial.deviations();
+    for (int sweep = 0; sweep < 6; ++sweep) {
+      EXPECT_GT(trial.relax({1000, 0.5, 0, 0.8, cap_mm}, cap_mm), 0U);
+    }
+    EXPECT_EQ(testing::inverted_tets(trial.mesh.tets, trial.mesh.points), 0U);
+    const double after = normal_error_deg(trial.surface(), trial.mesh.points, kBallCentre);
+    EXPECT_LT(after, (cap_mm < 0.1 ? 0.99 : 0.95) * before) << cap_mm;
+    std::size_t farther = 0;
+    for (const auto& [v, deviation] : trial.deviations()) {
+      EXPECT_LE(deviation, std::max(cap_mm, near_before.at(v)) * (1 + 1e-9)) << cap_mm;
+      farther += deviation > near_before.at(v) + 0.01 ? 1 : 0;
+    }
+    EXPECT_GT(farther, 10U);  // it does take vertices off the image's boundary
+  }
+}
+
+TEST(ImproveMesh, SmoothnessLeavesASphereAsItIs) {
+  // On a sphere all neighbours agree on where a vertex is, however the facets are cut: nothing shrinks.
+  FittedBall trial(improved(ball(), {}, 0.9), 0.25);
+  for (const auto& [v, deviation] : trial.deviations()) {
+    Vec3& p = trial.mesh.points[v];
+    p = kBallCentre + 16.2 * (p - kBallCentre).normalized();
+  }
+  ASSERT_EQ(testing::inverted_tets(trial.mesh.tets, trial.mesh.points), 0U);
+  for (int sweep = 0; sweep < 8; ++sweep) {
+    trial.relax({1000, 0.5, 0, 1, 0.8}, 0.8);  // smoothness alone
+  }
+  double sum = 0;
+  std::size_t far = 0;
+  const auto deviations = trial.deviations();
+  for (const auto& [v, deviation] : deviations) {
+    const double off = (trial.mesh.points[v] - kBallCentre).norm() - 16.2;
+    sum += off;
+    far += std::abs(off) > 0.1 ? 1 : 0;
+  }
+  EXPECT_LT(std::abs(sum) / static_cast<double>(deviations.size()), 0.02);
+  // Where tets would turn over, a vertex may go to the image's boundary instead.
+  EXPECT_LT(far, deviations.size() / 20);
+}
+
+TEST(ImproveMesh, SmoothnessMakesFlatterSurfacesOfAsGoodTets) {
+  const LabelImage image = ball();
+  const auto voxels = static_cast<double>(image.voxels_per_material()[1]);
+  const ImageBoundary boundary(image, {});
+  for (const bool fine : {false, true}) {
+    const auto mesh_with = [&](double smoothness) {
+      ImproveOptions options;
+      options.smoothness = smoothness;
+      return fine ? improved(image, options, 0.9) : improved(image, options);
+    };
+    const MaterialMesh smooth = mesh_with(0.5);
+    EXPECT_LT(normal_error_of_ball(smooth), 0.96 * normal_error_of_ball(mesh_with(0))) << fine;
+    EXPECT_NEAR(extent_of_materials(smooth, 2).volume_mm3[1], voxels, 0.01 * voxels) << fine;
+    // The stage's own boundary is moved by what the volume lacks; repair of the default's larger tets may go
+    // to .5 diagonals.
+    const double farthest_mm = (fine ? 0.45 : 0.55) * std::sqrt(3.0);
+    for (const testing::FaceKey& f :
+         testing::surface_of_label(smooth.tets, smooth.materials, MaterialId{1})) {
+      for (const VertexId v : f) {
+        EXPECT_LT(boundary.sample(smooth.points[v], 1, kBackground).deviation_mm, farthest_mm);
+      }
+    }
+  }
+}
+
+TEST(ImproveMesh, SmoothnessAndGradationAreTheSameAtAnyThreadCount) {
+  const LabelImage image = cut_block();
+  ImproveOptions options;
+  options.smoothness = 0.4;
+  options.smoothness_cap_mm = 0.2;
+  options.gradation = 0.2;
+  set_thread_count(1);
+  const MaterialMesh one = improved(image, options);
+  set_thread_count(2);
+  const MaterialMesh two = improved(image, options);
+  set_thread_count(0);
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.tets, two.tets);
+  EXPECT_EQ(testing::inverted_tets(two.tets, two.points), 0U);
+}
+
+/// The largest ratio of an inner edge to what the gradation allows it.
+double worst_growth(const MaterialMesh& mesh, double gradation) {
+  const std::vector<double> sizes = graded_sizes(mesh, gradation);
+  double worst = 0;
+  for_each_edge(mesh, [&](VertexId a, VertexId b, bool inner) {
+    if (inner) {
+      worst = std::max(worst, (mesh.points[a] - mesh.points[b]).norm() / (0.5 * (sizes[a] + sizes[b])));
+    }
+  });
+  return worst;
+}
+
+TEST(ImproveMesh, GradationBoundsTheGrowthAndCostsTets) {
+  const LabelImage image = ball();
+  const MaterialMesh free = improved(image, {}, 0.9);
+  const double growth = worst_growth(free, 0.2);
+  std::size_t tets = free.tets.size();
+  for (const double gradation : {0.8, 0.2}) {
+    ImproveOptions options;
+    options.gradation = gradation;
+    const MaterialMesh mesh = improved(image, options, 0.9);
+    EXPECT_GT(mesh.tets.size(), tets) << gradation;
+    tets = mesh.tets.size();
+    // The lattice itself doubles from cell to cell, and is not split.
+    EXPECT_LT(worst_growth(mesh, 0.2), (gradation < 0.5 ? 0.6 : 0.9) * growth) << gradation;
+  }
+}
+
+}  // namespace
+}  // namespace cbc3d

@@ -1,0 +1,62 @@
+// A mesh that is cut in patches and put together again.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+#include "mesher/improve/local/edge_collapse.hpp"
+#include "mesher/improve/local/edge_removal.hpp"
+#include "mesher/improve/local/mesh_patches.hpp"
+#include "mesher/improve/local/testing_trial.hpp"
+#include "mesher/improve/local/vertex_moves.hpp"
+#include "mesher/testing/test_images.hpp"
+
+namespace cbc3d {
+namespace {
+
+using testing::expect_sound;
+using testing::hosted;
+using testing::kGoal;
+using testing::kGood;
+using testing::kRelax;
+using testing::touching_balls;
+using testing::Trial;
+
+TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
+  Trial trial(touching_balls());
+  const auto volumes = trial.volumes();
+  const std::size_t tets = trial.mesh.tets.size();
+  trial.rules.patch_tets = 200;
+  const std::size_t hosts = hosted(trial);
+  std::atomic<std::size_t> seen = 0;
+  std::atomic<int> patches = 0;
+  trial.apply([&](Patch& patch) {  // nothing is done, nothing changes
+    seen += patch.mesh.tet_slots();
+    ++patches;
+  });
+  EXPECT_EQ(seen, tets);
+  EXPECT_GT(patches, 4);
+  EXPECT_EQ(trial.mesh.tets.size(), tets);
+  expect_sound(trial, hosts);
+  for (std::size_t m = 1; m < volumes.size(); ++m) {
+    EXPECT_NEAR(trial.volumes()[m], volumes[m], 1e-9 * volumes[m]);
+  }
+  const std::vector<long> chi = trial.characteristics();
+  for (int round = 0; round < 4; ++round) {
+    trial.apply(
+        [&](Patch& p) {
+          relax_vertices(p, kRelax);
+          remove_edges(p, kGood);
+          flatten_interfaces(p, kGoal);
+          collapse_edges(p, {kGoal, 2.5, nullptr, false});
+          climb_vertices(p, kGoal);
+        },
+        round);
+    expect_sound(trial, hosts);
+    EXPECT_EQ(trial.characteristics(), chi);
+  }
+  EXPECT_LT(trial.mesh.tets.size(), tets * 3 / 4);
+}
+
+}  // namespace
+}  // namespace cbc3d

@@ -1,0 +1,83 @@
+// Defects of surfaces, counted and compared.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "mesher/improve/surface/surface_defects.hpp"
+#include "mesher/improve/surface/testing_layered_mesh.hpp"
+
+namespace cbc3d {
+namespace {
+
+using testing::kPlane;
+using testing::kSize;
+using testing::places;
+using testing::points_on_plane;
+using testing::two_layers;
+
+TEST(SurfaceDefects, AreBetterOnlyWhereNothingIsWorse) {
+  const SurfaceDefects base{2, 3, 1.5, 1.2};
+  EXPECT_FALSE(base.is_better_than(base, true));
+  EXPECT_TRUE((SurfaceDefects{1, 3, 1.5, 1.2}.is_better_than(base, false)));
+  EXPECT_TRUE((SurfaceDefects{2, 3, 0, 1.2}.is_better_than(base, false)));
+  EXPECT_FALSE((SurfaceDefects{0, 0, 1.6, 0}.is_better_than(base, true)));
+  EXPECT_FALSE((SurfaceDefects{0, 0, 0, 1.3}.is_better_than(base, true)));
+  EXPECT_FALSE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, false)));
+  EXPECT_TRUE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, true)));  // a cut for a pinch
+  EXPECT_FALSE((SurfaceDefects{3, 3, 0, 0}.is_better_than(base, true)));
+  EXPECT_TRUE((SurfaceDefects{2, 2, 1.5, 1.2, 9}.is_better_than(base, false)));  // folds count last
+  EXPECT_FALSE((SurfaceDefects{3, 3, 1.5, 1.2, 0}.is_better_than({2, 3, 1.5, 1.2, 4}, true)));
+  EXPECT_TRUE((SurfaceDefects{2, 3, 1.5, 1.2, 3}.is_better_than({2, 3, 1.5, 1.2, 4}, false)));
+}
+
+TEST(SurfaceDefects, NoneInCleanLayersAndEachKindWhereItIs) {
+  MaterialMesh mesh = two_layers(kSize, kPlane);
+  const ImagePlaces image = places();
+  std::vector<InterfacePoint> points = points_on_plane();
+  const SurfaceGuide guide{points, image, 1};
+  {
+    const LabelledComplex complex(mesh, image.label_of);
+    EXPECT_TRUE(find_surface_defects(complex, guide).seeds.empty());
+  }
+  // A point beyond the surface's reach is lonely, and its neighbours are known.
+  points.push_back({{3, 3, 4.5F}, 1, 2});
+  {
+    const LabelledComplex complex(mesh, image.label_of);
+    const FaultList faults_found = find_surface_defects(complex, guide);
+    ASSERT_EQ(faults_found.seeds.size(), 1U);
+    for (const VertexId v : faults_found.seeds[0]) {
+      EXPECT_LE((mesh.points[v] - points.back().centre()).norm(), 1.5);
+    }
+    FaultMeter meter(complex, guide);
+    meter.look_at(faults_found.seeds[0]);
+    const FaultMeter::Scope scope = meter.scope_of(faults_found.seeds[0]);
+    EXPECT_NEAR(meter.measure(scope).lonely, 1.5, 1e-6);
+    EXPECT_EQ(meter.lonely_points(scope).size(), 1U);
+  }
+  points.pop_back();
+  // A tet beyond the plane: its tip is far from where both materials belong.
+  const VertexId tip = [&] {
+    for (TetId t = 0;; ++t) {
+      const auto& n = mesh.tets[t];
+      const auto on_plane =
+          std::count_if(n.begin(), n.end(), [&](VertexId v) { return mesh.points[v].z == kPlane; });
+      if (mesh.materials[t] == 2 && on_plane == 3 && mesh.points[n[0]].x == 3 && mesh.points[n[0]].y == 3) {
+        mesh.materials[t] = 1;
+        return *std::max_element(n.begin(), n.end(),
+                                 [&](VertexId a, VertexId b) { return mesh.points[a].z < mesh.points[b].z; });
+      }
+    }
+  }();
+  const LabelledComplex complex(mesh, image.label_of);
+  const FaultList faults_found = find_surface_defects(complex, guide);
+  ASSERT_EQ(faults_found.seeds.size(), 1U);
+  EXPECT_EQ(faults_found.seeds[0], std::vector<VertexId>{tip});
+  EXPECT_EQ(faults_found.cuts, 0U);
+  FaultMeter meter(complex, guide);
+  EXPECT_NEAR(meter.far({tip}), 2, 1e-9);  // one millimetre from the plane, of both
+  EXPECT_EQ(meter.pinches({tip}), 0U);
+}
+
+}  // namespace
+}  // namespace cbc3d
