@@ -295,7 +295,7 @@ TEST(MeshImage, WarnsOfTopologyChecksWithoutVoxelCleaning) {
   Progress quiet;
   mesh_image(image, options, quiet, report);
   EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
-    return w.find("--no-manifold-voxels") != std::string::npos;
+    return w.find("manifold_voxels off") != std::string::npos;
   }));
 }
 
