@@ -274,7 +274,7 @@ void describe(itk::ImageIOBase& io, const ImageFrame& frame) {
   io.SetIORegion(region);
 }
 
-/// The format is told by the extension, so the temporary file keeps it: ".name.part7" + extension.
+/// The extension decides the format, so the temporary file keeps it: ".name.part7" + extension.
 std::string image_extension(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.ends_with(".nii.gz") ? ".nii.gz" : path.extension().string();

@@ -100,9 +100,9 @@ TEST(Inflate, RefusesEveryTruncation) {
   }
 }
 
-/// No damage is taken for data: the checksum tells, or the code itself. (A distance may change to another
-/// one in a run of equal bytes, which is no damage.) Under a sanitizer this also shows that nothing outside
-/// the ranges is touched.
+/// Damage is never taken for data: the checksum shows it, or the code itself. (A distance may change to
+/// another one in a run of equal bytes, which is no damage.) Under a sanitizer this also shows that nothing
+/// outside the ranges is touched.
 TEST(Inflate, TakesNoDamageForData) {
   const Bytes bytes = runs(20000, 40, 30, 2, 9);
   for (const int level : {0, 1, 9}) {

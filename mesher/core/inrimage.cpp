@@ -138,7 +138,7 @@ void swap_bytes(std::uint8_t* bytes, std::size_t count, std::size_t component_by
   }
 }
 
-/// What follows the header in a file that is read so far.
+/// The rest of a file whose header has been read.
 void read_voxels(gzFile_s* file, std::uint8_t* bytes, std::size_t count, const std::filesystem::path& path) {
   for (std::size_t done = 0; done < count;) {
     const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 28U));

@@ -90,7 +90,7 @@ std::optional<Vec3> nearest_boundary_voxel(const LabelImage& image, const Vec3& 
 bool has_boundary_voxel_near(const LabelImage& image, const Vec3& local_mm, MaterialId material,
                              double reach_mm);
 
-/// The first material of each material's label: several have one where a label's regions were told apart.
+/// The first material of each material's label: several have one where a label's regions were separated.
 std::vector<MaterialId> first_of_label(const LabelImage& image);
 
 }  // namespace cbc3d

@@ -30,7 +30,7 @@ namespace {
 
 constexpr const char* kLabelArray = "label";
 
-/// VTK tells of faults through observers, not exceptions.
+/// VTK reports faults through observers, not exceptions.
 class FaultCatcher : public vtkCommand {
  public:
   static FaultCatcher* New() { return new FaultCatcher; }

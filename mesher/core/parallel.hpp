@@ -53,9 +53,9 @@ std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
   });
 }
 
-/// Runs f(begin, end) for ranges that `count` rows are cut in, one a thread. To fill rows, each thread passes
-/// over all there is and takes what goes to its rows: reading it again costs less than the scattered writes,
-/// of which every thread has its share.
+/// Cuts `count` rows into one range per thread and runs f(begin, end) for each. To fill rows, each thread
+/// passes over all there is and takes what goes to its rows: reading it again costs less than the scattered
+/// writes, of which every thread has its share.
 template <typename F>
 void for_ranges(std::size_t count, const F& f) {
   const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));

@@ -18,7 +18,7 @@ class ParallelDeflate : public vtkZLibDataCompressor {
  public:
   static ParallelDeflate* New() { VTK_STANDARD_NEW_BODY(ParallelDeflate); }
 
-  /// An array that will be written in blocks of so many bytes; to be called after the level is set. It must
+  /// An array that will be written in blocks of that many bytes; to be called after the level is set. It must
   /// outlive the writing.
   void foresee(std::span<const std::uint8_t> array, std::size_t block_bytes);
   /// How many blocks were ready when they were asked for.

@@ -41,7 +41,7 @@ TEST(VoxelRows, RunsEndWhereTheValueChanges) {
   EXPECT_EQ(end_of_run(row.data(), 3, 50), 50);
   for (int at = 4; at < 50; ++at) {
     row.assign(50, 513);
-    row[static_cast<std::size_t>(at)] = 1;  // the low byte alone would not tell
+    row[static_cast<std::size_t>(at)] = 1;  // the low byte alone would not show it
     EXPECT_EQ(end_of_run(row.data(), 3, 50), at);
     EXPECT_EQ(end_of_run(row.data(), 3, at), at);
   }

@@ -34,7 +34,7 @@ class BlockMatrix {
   BlockMatrix(const MaterialMesh& mesh, const VertexCells& around);
 
   [[nodiscard]] std::size_t row_count() const { return inverse_diagonal_.size(); }
-  /// The columns of row v: v itself, then the others as they are met in the cells round it.
+  /// The columns of row v: v itself, then the others as they are met in the cells around it.
   [[nodiscard]] std::span<const VertexId> columns(VertexId v) const {
     return {column_.data() + first_[v], column_.data() + first_[v + 1]};
   }

@@ -53,7 +53,7 @@ SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& 
 struct TargetPoint {
   static constexpr std::uint32_t kMostSets = 1U << 25U;
 
-  std::int32_t i;          ///< voxel index along x; (j, k) is told by the row
+  std::int32_t i;          ///< voxel index along x; the row gives (j, k)
   std::uint32_t set : 25;  ///< below kMostSets
   /// Bit 2 * axis (+ 1): the face towards smaller (larger) indices has another material behind.
   std::uint32_t faces : 6;

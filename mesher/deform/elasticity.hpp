@@ -25,11 +25,12 @@ struct ElasticityOptions {
 class ElasticSystem {
  public:
   /// The sparsity pattern is that of the mesh and stays valid while its connectivity does. `around` must
-  /// outlive the system. `materials`: one a MaterialId.
+  /// outlive the system. `materials` has one entry per MaterialId.
   ElasticSystem(const MaterialMesh& mesh, const VertexCells& around,
                 const std::vector<ElasticMaterial>& materials, const ElasticityOptions& options);
 
-  /// Computes K for the mesh's present coordinates and adds H^T H for the given sources (one flag a vertex).
+  /// Computes K for the mesh's present coordinates and adds H^T H for the given sources (one flag per
+  /// vertex).
   void assemble(const MaterialMesh& mesh, const std::vector<std::uint8_t>& is_source);
 
   /// Solves for U, starting from the given U. `load`: H^T D.

@@ -32,7 +32,7 @@ class QualityControl {
 
  private:
   [[nodiscard]] double margin(CellId cell, const std::vector<Vec3>& points) const;
-  /// Those of the cells round these vertices, each once; in any order. `seen`: one mark a cell, set to
+  /// Those of the cells around these vertices, each once; in any order. `seen`: one mark per cell, set to
   /// `round`.
   [[nodiscard]] std::vector<CellId> failing_around(const std::vector<VertexId>& vertices,
                                                    const std::vector<Vec3>& before,

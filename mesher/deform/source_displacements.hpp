@@ -19,8 +19,9 @@ struct DisplacementOptions {
   TargetPosition target_position = TargetPosition::voxel_centre;
   bool along_normal = true;  ///< only along the surface's normal, except where three or more materials meet
   bool reject_outliers =
-      true;          ///< leave out targets whose boundary looks the other way, as the far side of a thin wall
-  double reach = 3;  ///< a source with no target in its region takes the nearest within so many region radii
+      true;  ///< leave out targets whose boundary looks the other way, as the far side of a thin wall
+  double reach =
+      3;  ///< a source with no target in its region takes the nearest within this many region radii
   double pair_distance =
       0.5;  ///< no pair of source and nearest target may stay farther apart, voxel diagonals; 0: off
 };
@@ -38,7 +39,7 @@ struct SourceDisplacement {
   bool matched = false;
 };
 
-/// For each source the mean of the vectors to the targets of its material set in the ball round it whose
+/// For each source the mean of the vectors to the targets of its material set in the ball around it whose
 /// radius is the mean length of its surface edges; zero with `matched` 0 where there is none. Sources whose
 /// set no target has use the nearest of those sets that are nearest to theirs. Parallel; the same result at
 /// any thread count. What is the same at all positions is made ready once.

@@ -1,4 +1,5 @@
-// The tolerances of the quality preset: one place for each figure, with its meaning and, where it has one, its reason.
+// The tolerances of the quality preset: one place for each figure, with its meaning and, where it has one,
+// its reason.
 //
 // Unit: all lengths are multiples of Domain::scale_mm, which is the voxel diagonal for an image. The distance
 // that the finished mesh is judged by is 1.1 diagonals both ways, from boundary voxels to surface vertices

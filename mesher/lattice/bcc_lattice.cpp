@@ -325,7 +325,8 @@ std::vector<std::uint8_t> labelled_nodes(const LabelImage& image, const Grid& gr
     std::array<std::size_t, 4> numbers{};
     std::transform(tet.begin(), tet.end(), numbers.begin(),
                    [&](const LatticePoint& node) { return nodes.number_of(node); });
-    // Where all are flagged already, by a few of the two dozen tets round each, the voxels need not be asked.
+    // Where all are flagged already, by a few of the two dozen tets around each, the voxels need not be
+    // asked.
     const bool known =
         std::all_of(numbers.begin(), numbers.end(), [&](std::size_t n) { return is_set(labelled[n]); });
     if (!known && holds_labelled_voxel(image, raster, tet)) {

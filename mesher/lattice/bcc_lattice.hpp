@@ -13,7 +13,7 @@ struct BccLatticeOptions {
 };
 
 /// Covers the labelled voxels of `image` with BCC tets, in the image's local frame and centred on the
-/// labelled region, and leaves out the tets wholly outside. A ring of tets round those that hold labelled
+/// labelled region, and leaves out the tets wholly outside. A ring of tets around those that hold labelled
 /// voxels is kept until the background is discarded: so every vertex near a surface has its whole star, which
 /// the topological checks rely on. Throws InputError when the spacing is so small for this image that the
 /// lattice cannot be indexed.

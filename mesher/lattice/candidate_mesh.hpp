@@ -43,7 +43,8 @@ class LatticeFollower {
   [[nodiscard]] std::size_t tet_count() const { return first_.empty() ? 0 : first_.back(); }
 
  private:
-  /// What tells a red tet from the one that had its place before: splitting it makes it one level deeper.
+  /// What distinguishes a red tet from the one that had its place before: splitting it makes it one level
+  /// deeper.
   struct Shape {
     std::int8_t level;
     std::uint8_t split;

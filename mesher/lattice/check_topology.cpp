@@ -54,7 +54,7 @@ bool is_mixed(const VertexCells& around, VertexId v, const std::vector<ClassId>&
   return false;
 }
 
-/// Those of `candidates` (ascending) at which a surface is no manifold.
+/// Those of `candidates` (ascending) at which a surface is non-manifold.
 std::vector<VertexId> find_non_manifold(const VertexCells& around, const CandidateMesh& mesh,
                                         const std::vector<ClassId>& class_of_tet,
                                         const std::vector<VertexId>& candidates) {
@@ -142,7 +142,7 @@ class Repair {
  private:
   static constexpr int kMostPasses = 10;
 
-  /// All vertices at which a surface is no manifold, ascending: only where that is not known to be otherwise
+  /// All vertices at which a surface is non-manifold, ascending: only where that is not known to be otherwise
   /// has to be looked.
   std::vector<VertexId> find_bad() {
     std::vector<VertexId> candidates;

@@ -1,10 +1,10 @@
 // Stage "Mesh topological checks" (paper, section "Adaptive Lattice Refinement"): every label's sub-mesh a
-// manifold, and without crumbs.
+// manifold, and without small components.
 //
 // The paper refines around non-manifold places and admits that this need not converge. Here refinement comes
 // first (refine_lattice, while its bounds allow it) and what is left is relabelled, in a way that always
 // ends: labels are ranked, background highest, then the smaller the label the higher, and a tet only ever
-// changes to a label of higher rank. At a vertex where the surface of label m is no manifold:
+// changes to a label of higher rank. At a vertex where the surface of label m is non-manifold:
 //   - m falls into pieces and no higher label is in the star: all lower tets of the star become m;
 //   - m falls into pieces otherwise: all pieces but the largest go to the highest label of the star;
 //   - the rest falls into pieces: those without a higher label become m; if two or more are left, m leaves
@@ -26,8 +26,8 @@ namespace cbc3d {
 struct TopologyOptions {
   bool enabled = false;       ///< --topology-checks
   bool one_face_rule = true;  ///< kept on the way (RefineOptions::one_face_rule)
-  int image_passes = 0;  ///< first so many passes in which the image at a non-manifold vertex decides: its
-                         ///< whole star becomes what the voxel there is
+  int image_passes = 0;       ///< the first passes, this many, in which the image at a non-manifold vertex
+                         ///< decides: its whole star becomes what the voxel there is
   double small_component = 0.01;  ///< a component below this share of its label's volume is relabelled
 };
 
@@ -52,7 +52,7 @@ struct TopologyReport {
   std::vector<LabelTopology> labels;
 };
 
-/// Vertices at which the surface of some label is no manifold, ascending. Parallel.
+/// Vertices at which the surface of some label is non-manifold, ascending. Parallel.
 std::vector<VertexId> non_manifold_vertices(const CandidateMesh& mesh, std::size_t vertex_count,
                                             const std::vector<Label>& label_of_material);
 

@@ -30,7 +30,7 @@ class FidelityAccount {
         sums_{std::vector<std::ptrdiff_t>(voxels_.size(), 0),
               std::vector<std::ptrdiff_t>(voxels_.size(), 0)} {}
 
-  /// Changes of the account, one entry a material.
+  /// Changes of the account, one entry per material.
   struct Changes {
     std::vector<std::ptrdiff_t> missing;    ///< voxels of the material in tets of others
     std::vector<std::ptrdiff_t> intruding;  ///< voxels of others in tets of the material

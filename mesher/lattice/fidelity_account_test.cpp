@@ -96,7 +96,7 @@ TEST(FidelityAccount, CountsAsOneThatLooksAtEveryVoxel) {
               static_cast<std::ptrdiff_t>(foreign.size()) - 100);
 
     changes = account.no_changes();
-    for (std::size_t t = 0; t < mesh.tets.size(); t += 3) {  // some change hands
+    for (std::size_t t = 0; t < mesh.tets.size(); t += 3) {  // some change their material
       if (foreign[t] != 0) {
         account.leave(mesh.corners(t), mesh.materials[t], changes);
       }

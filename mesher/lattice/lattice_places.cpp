@@ -6,7 +6,7 @@
 namespace cbc3d {
 
 LatticePlaces::LatticePlaces(const ImageFrame& image, const LatticeFrame& lattice) : frame_(lattice) {
-  // Finer cubes than a few voxels would cost memory and tell little more.
+  // Finer cubes than a few voxels would cost memory and show little more.
   const double least_mm = 4 * std::cbrt(image.spacing_mm.x * image.spacing_mm.y * image.spacing_mm.z);
   for (int level = 0; level <= lattice.max_level; ++level) {
     // A unit more than the tet's extent, so that rounding cannot take a place to the next cube but one.

@@ -11,7 +11,7 @@
 namespace cbc3d {
 
 /// Cubes over the image for each level, as long as a red tet of the level at least: a place flags its cube
-/// and the 26 round it, so one bit at any node of a tet tells whether a place can be in the tet.
+/// and the 26 around it, so one bit at any node of a tet shows whether a place can be in the tet.
 class LatticePlaces {
  public:
   LatticePlaces(const ImageFrame& image, const LatticeFrame& lattice);

@@ -405,7 +405,7 @@ std::vector<std::uint32_t> RedGreenRefiner::concerned_reds() {
   return concerned_near(just_touched_);
 }
 
-/// Of the red tets that near_ has for these vertices, those that are concerned. A bit of each tells which
+/// Of the red tets that near_ has for these vertices, those that are concerned. A bit of each says which
 /// were found already, and brings them in order.
 std::vector<std::uint32_t> RedGreenRefiner::concerned_near(const std::vector<VertexId>& vertices) const {
   constexpr std::size_t kWorthThreads = 256;

@@ -59,7 +59,7 @@ struct MaterialFidelity {
 
 struct RefineResult {
   CandidateMesh mesh;
-  std::vector<MaterialFidelity> fidelity;  ///< one a labelled material
+  std::vector<MaterialFidelity> fidelity;  ///< one per labelled material
   std::size_t uncovered_voxels = 0;  ///< boundary voxels beyond max_distance_mm that could not be reached
   int rounds = 0;
   std::vector<std::string> warnings;  ///< which materials fall short, and why the rounds ended

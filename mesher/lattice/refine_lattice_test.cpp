@@ -36,7 +36,7 @@ TEST(RefineLattice, SmoothLabelsAreThoseOfTheBoundaryAtTheCentroids) {
       ASSERT_EQ(mesh.materials[t], smooth ? domain.material_at(centroid) : image.at_local(centroid));
     }
     EXPECT_EQ(unlike_voxel > 0, smooth);
-    // The distance is held for every interface, so far as the lattice goes.
+    // The distance is held for every interface, as far as the lattice goes.
     const auto sets = vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, points.size());
     EXPECT_EQ(uncovered_samples(boundary_samples(image), points, sets, options.max_distance_mm).size(),
               result.uncovered_voxels);

@@ -40,7 +40,7 @@ class VertexToRedTets {
     std::uint32_t red, before;
   };
 
-  std::vector<std::uint32_t> first_;  // rows of reds_, one a vertex
+  std::vector<std::uint32_t> first_;  // rows of reds_, one per vertex
   std::vector<std::uint32_t> reds_;
   std::vector<std::uint32_t> last_;  // of each vertex, into later_
   std::vector<Later> later_;

@@ -2,7 +2,7 @@
 // pyramids between the hexes and the remaining tets.
 //
 // Notation: star    the tets around a vertex; uniform when they are 24 red ones of one material that close
-//                   round it;
+//                   around it;
 //           centre  a vertex with a uniform star: 6 of its 14 neighbours lie on its axes (4 tets each), 8 are
 //                   the corners (6 tets each) of the hex that replaces the star's inner half;
 //           quad    the four corners around an axis: a face of the hex. Across it lies either the hex of the

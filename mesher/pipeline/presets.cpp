@@ -43,8 +43,9 @@ MeshImageOptions quality_options(double diagonal_mm) {
           .topology = {.enabled = true, .one_face_rule = false, .image_passes = 4, .small_component = 0},
           .deform = {.iterations = 0, .displacement = kTargetsOnBoundary},
           .improve = {.enabled = true, .reach_mm = refine.max_distance_mm},
-          .stricter = Tolerance{
-              .max_distance_mm = tolerances::kStrictReach * diagonal_mm, .deviation_diagonals = tolerances::kStrictDeviation, .collapse_leeway_deg = 0}};
+          .stricter = Tolerance{.max_distance_mm = tolerances::kStrictReach * diagonal_mm,
+                                .deviation_diagonals = tolerances::kStrictDeviation,
+                                .collapse_leeway_deg = 0}};
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct CleanReport {
   RegionReport removed;
   ContactReport contacts;
   RegionReport regions;             ///< of the clean image
-  std::vector<LabelChange> labels;  ///< one a label, background left out
+  std::vector<LabelChange> labels;  ///< one per label, background left out
 };
 
 /// Cleans `image` in place. Small regions go first and contacts are removed before the regions are split, so

@@ -44,7 +44,7 @@ struct Faults {
   std::size_t vertices = 0;  // whose facets form more than one fan
 };
 
-/// Where a surface is no manifold.
+/// Where a surface is non-manifold.
 inline Faults faults_of_surface(const std::vector<FaceKey>& surface) {
   std::map<std::array<VertexId, 2>, int> edges;
   std::map<VertexId, std::vector<std::array<VertexId, 2>>> rims;  // for each vertex, the sides across from it

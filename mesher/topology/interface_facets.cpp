@@ -30,8 +30,8 @@ const CellFacets& facets_of(std::size_t node_count) {
 
 constexpr CellId kNoCell = ~CellId{0};
 
-/// A facet at its smallest node. `key`: its second and third smallest node, which with the smallest tell it
-/// from every other facet of a conforming mesh.
+/// A facet at its smallest node. `key`: its second and third smallest node, which with the smallest
+/// distinguish it from every other facet of a conforming mesh.
 struct Facet {
   std::uint64_t key;
   CellId cell;
@@ -84,7 +84,7 @@ bool add_facet(std::uint64_t key, CellId cell, std::size_t number, std::vector<F
 }
 
 /// Adds the facets of a tet whose smallest node is v: the three at v where v is the smallest of the tet's
-/// nodes, the one opposite the smaller node where one is. Most tets round a vertex have none.
+/// nodes, the one opposite the smaller node where one is. Most tets around a vertex have none.
 bool add_facets_of_tet(const std::array<VertexId, 4>& tet, CellId cell, VertexId v,
                        std::vector<Facet>& facets) {
   unsigned smaller = 0;

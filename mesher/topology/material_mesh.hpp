@@ -29,7 +29,7 @@ struct MaterialCells {
 struct MaterialMesh {
   std::vector<Vec3> points;           ///< local mm
   TetNodes tets;                      ///< positively oriented
-  std::vector<MaterialId> materials;  ///< one a tet
+  std::vector<MaterialId> materials;  ///< one per tet
   MaterialCells<5> pyramids;          ///< of the mixed mesh only
   MaterialCells<8> hexes;             ///< of the mixed mesh only
 

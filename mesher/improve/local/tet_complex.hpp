@@ -38,7 +38,7 @@ struct EdgeRing {
 
 class TetComplex {
  public:
-  /// All tets must be positive and conforming. `locked` has one entry a vertex.
+  /// All tets must be positive and conforming. `locked` has one entry per vertex.
   TetComplex(std::vector<Vec3> points, TetNodes tets, std::vector<MaterialId> materials,
              std::vector<std::uint8_t> locked);
 
