@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Texts = std::vector<std::string>;
 
-/// The JSON file with the words to complain about it.
+/// The JSON file, with the checks that name file and key when they fail.
 struct Description {
   const fs::path& file;
   json content;
@@ -91,8 +91,8 @@ std::string expand(const std::string& text, const std::function<std::string(cons
   return expanded;
 }
 
-std::vector<ParameterSpec> read_parameters(const Description& description) {
-  std::vector<ParameterSpec> specs;
+ParameterSpecs read_parameters(const Description& description) {
+  ParameterSpecs specs;
   if (!description.content.contains("parameters")) return specs;
   const json& list = description.content["parameters"];
   if (!list.is_array()) description.fail("parameters", "is " + list.dump() + "; give a list of objects");
@@ -107,9 +107,9 @@ std::vector<ParameterSpec> read_parameters(const Description& description) {
   return specs;
 }
 
-/// The names that the command's braces may hold must all be known, and those that matter must be there.
-void check_placeholders(const Description& description, const Texts& command,
-                        const std::vector<ParameterSpec>& specs) {
+/// Every name in the command's braces must be known, and the command must use the image, the mesh and every
+/// parameter.
+void check_placeholders(const Description& description, const Texts& command, const ParameterSpecs& specs) {
   std::set<std::string> known{"image", "mesh", "report", "threads"};
   for (const ParameterSpec& spec : specs) {
     if (!known.insert(spec.key).second) description.fail("parameters", "has \"" + spec.key + "\" twice");
@@ -147,7 +147,7 @@ Availability availability_of(const std::string& program, const fs::path& file) {
   return {true, ""};
 }
 
-Texts command_of(const Texts& command, const std::vector<ParameterSpec>& specs, const MeshJob& job) {
+Texts command_of(const Texts& command, const ParameterSpecs& specs, const MeshJob& job) {
   std::map<std::string, std::string> values{{"image", job.image.string()},
                                             {"mesh", job.mesh.string()},
                                             {"report", job.report.string()},
@@ -191,11 +191,12 @@ Adapter load_external_mesher(const fs::path& file) {
   adapter.multithreaded = description.flag("multithreaded", false);
   adapter.openmp = description.flag("openmp", false);
   adapter.deterministic = description.flag("deterministic", true);
-  adapter.parameters = read_parameters(description);
+  const ParameterSpecs specs = read_parameters(description);
+  adapter.parameters = ParameterSource(specs);
   if (!description.content.contains("command"))
     description.fail("command", "is missing; give a list of texts, the program first");
   Texts command = description.texts("command");
-  check_placeholders(description, command, adapter.parameters);
+  check_placeholders(description, command, specs);
   const fs::path folder = fs::absolute(file).parent_path();
   command[0] = resolve_program(command[0], folder);
   if (description.content.contains("version_command")) {
@@ -205,9 +206,8 @@ Adapter load_external_mesher(const fs::path& file) {
   adapter.availability = [program = command[0], file](const fs::path&) {
     return availability_of(program, file);
   };
-  adapter.command = [command, name = adapter.name, specs = adapter.parameters](const fs::path&,
-                                                                               const MeshJob& job) {
-    require_known_parameters(name, specs, job);
+  adapter.command = [command, name = adapter.name, specs](const fs::path&, const MeshJob& job) {
+    require_known_parameters(name, specs, job.parameters);
     return command_of(command, specs, job);
   };
   return adapter;

@@ -1,7 +1,7 @@
-// Meshers from outside: a JSON file names a command line, and the mesher stands in the tables as any other.
+// Meshers from outside: a JSON file names a command line, and the mesher appears in the tables like any
+// other.
 //
-// {"name": "mytool",                                    letters, digits, hyphens; the bench calls it
-// external:mytool
+// {"name": "mytool",                                    letters, digits, hyphens; known as external:mytool
 //  "description": "what it is",                         one line
 //  "licence": "MIT",                                    SPDX expression
 //  "command": ["mytool", "{image}", "{mesh}", "-j", "{threads}", "--size={size}"],
@@ -12,7 +12,7 @@
 //
 // No shell sees the command: each entry is one argument, whatever it holds. Braces name a value: {image},
 // {mesh} and {report} are files, {threads} a number, all others must be parameters; "{{" stands for "{". A
-// program with a slash is meant relative to the JSON file's folder, any other is looked for in PATH. A mesher
+// program with a slash is meant relative to the JSON file's folder, any other is sought in PATH. A mesher
 // that writes to {report} the JSON of driver.hpp is timed by its own figures, any other from its start to its
 // end.
 #pragma once

@@ -80,7 +80,7 @@ TEST(Verdict, Tets) {
     EXPECT_NEAR(scaled_jacobian_tet(p), jacobian[c], 1e-12) << c;
     const auto angles = dihedral_angles_deg(p[0], p[1], p[2], p[3]);
     // VTK 9.1's Verdict takes 180 degrees less the angle at the edges 02 and 13, whose normals it has the
-    // wrong way round (TetQuality.EveryAngleBelongsToItsEdge pins ours).
+    // the wrong way (TetQuality.EveryAngleBelongsToItsEdge pins ours).
     const double theirs =
         std::min({angles[0], 180 - angles[1], angles[2], angles[3], 180 - angles[4], angles[5]});
     EXPECT_NEAR(theirs, angle[c], 1e-5) << c;

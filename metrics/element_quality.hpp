@@ -21,7 +21,7 @@ std::size_t dihedral_bin(double angle_deg);
 
 /// The percentiles that are given of every measure.
 inline constexpr std::array<int, 7> kPercentiles{1, 5, 25, 50, 75, 95, 99};
-/// Values at kPercentiles: the smallest value that at least so many percent of the values do not exceed, in
+/// Values at kPercentiles: the smallest value that at least that percentage of the values does not exceed, in
 /// single precision. Nothing of no values.
 using Percentiles = std::optional<std::array<double, kPercentiles.size()>>;
 /// Reorders the values.

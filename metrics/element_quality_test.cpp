@@ -186,7 +186,7 @@ TEST(Histogram, PercentilesAreNearestRanks) {
 
 TEST(Quality, BlockOfTheBccLattice) {
   const Mesh mesh = test::bcc_block(4, 2.5, 1);
-  ASSERT_EQ(mesh.tets.size(), 4U * 3 * 4 * 4 * 3);  // four round each face between two cells
+  ASSERT_EQ(mesh.tets.size(), 4U * 3 * 4 * 4 * 3);  // four around each face between two cells
   const auto quality = test::judge(mesh, test::two_boxes())["quality"];
   const auto tets = static_cast<std::int64_t>(mesh.tets.size());
   EXPECT_EQ(quality["dihedral_histogram_5deg"][12], 4 * tets);

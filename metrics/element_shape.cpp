@@ -43,10 +43,11 @@ constexpr std::array<LocalEdge, 9> kWedgeEdges{
 constexpr std::array<LocalEdge, 12> kHexEdges{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 
-// The ideal corner W of a kind: 1 / det W and the entries of (W^T W)^-1, by which |T|^2 = sum of M_ij e_i . e_j.
+// The ideal corner W of a kind: 1 / det W and the entries of (W^T W)^-1, by which |T|^2 = sum of M_ij e_i .
+// e_j.
 struct IdealCorner {
   double inverse_det;
-  Vec3 diagonal;             // M_11, M_22, M_33
+  Vec3 diagonal;  // M_11, M_22, M_33
   double m12, m13, m23;
 };
 constexpr double kSqrt3 = std::numbers::sqrt3, kSqrt2 = std::numbers::sqrt2;
@@ -71,8 +72,7 @@ double smallest_mean_ratio(const std::array<Corner, Corners>& corners, const std
   double smallest = kInfinity;
   for (const Corner& c : corners) {
     const Vec3& o = p[c.at];
-    smallest =
-        std::min(smallest, corner_mean_ratio(p[c.next] - o, p[c.previous] - o, p[c.up] - o, ideal));
+    smallest = std::min(smallest, corner_mean_ratio(p[c.next] - o, p[c.previous] - o, p[c.up] - o, ideal));
   }
   return smallest;
 }
@@ -194,9 +194,9 @@ void find_distribution(std::size_t which, Values& values, std::array<std::size_t
 // Of each kind by itself. Its values are measured anew: meshes of several kinds are rare.
 void find_kinds(const MeshView& view, MeshShape& shape) {
   const Mesh& mesh = view.mesh();
-  const std::array<std::size_t, 5> ends{
-      0, mesh.tets.size(), mesh.tets.size() + mesh.pyramids.size(),
-      mesh.tets.size() + mesh.pyramids.size() + mesh.wedges.size(), mesh.cell_count()};
+  const std::array<std::size_t, 5> ends{0, mesh.tets.size(), mesh.tets.size() + mesh.pyramids.size(),
+                                        mesh.tets.size() + mesh.pyramids.size() + mesh.wedges.size(),
+                                        mesh.cell_count()};
   for (std::size_t kind = 0; kind < 4; ++kind) {
     if (ends[kind + 1] - ends[kind] == mesh.cell_count()) {
       shape.per_kind[kind] = shape.all;
@@ -218,8 +218,8 @@ json to_json(const std::optional<ShapeDistribution>& of) {
   if (!of) {
     return nullptr;
   }
-  return {{"min", number_or_null(of->min)}, {"p0_1", number_or_null(of->p0_1)},
-          {"p1", number_or_null(of->p1)},   {"p5", number_or_null(of->p5)},
+  return {{"min", number_or_null(of->min)},       {"p0_1", number_or_null(of->p0_1)},
+          {"p1", number_or_null(of->p1)},         {"p5", number_or_null(of->p5)},
           {"median", number_or_null(of->median)}, {"below_0_3_percent", of->below_0_3_percent}};
 }
 

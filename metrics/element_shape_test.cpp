@@ -61,9 +61,11 @@ TEST(ElementShape, SlabTet) {
   for (const double height : {.1, .01, .001}) {
     // Four corners of a square, two of them lifted.
     const std::array<Vec3, 4> slab{Vec3{0, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, height}, Vec3{1, 0, height}};
-    EXPECT_NEAR(height_ratio_tet(slab), std::sqrt(1.5) * height / std::sqrt(2.0), 2 * height * height);
-    // V = height/3, squared edges 2 * 2 + 4 (1 + height^2).
-    EXPECT_NEAR(std::fabs(mean_ratio_tet(slab)), 12 * std::pow(height, 2.0 / 3) / (8 + 4 * height * height), 1e-12);
+    // V = height/3, its largest faces have the area sqrt(1 + 2 height^2) / 2, the longest edge is sqrt(2).
+    EXPECT_NEAR(height_ratio_tet(slab), std::sqrt(3.0) * height / std::sqrt(1 + 2 * height * height), 1e-12);
+    // Squared edges 2 * 2 + 4 (1 + height^2).
+    EXPECT_NEAR(std::fabs(mean_ratio_tet(slab)), 12 * std::pow(height, 2.0 / 3) / (8 + 4 * height * height),
+                1e-12);
   }
   const std::array<Vec3, 4> flat{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}};
   EXPECT_EQ(inverse_radius_ratio_tet(flat), 0);
@@ -93,7 +95,8 @@ TEST(ElementShape, Wedge) {
 TEST(ElementShape, Pyramid) {
   EXPECT_NEAR(mean_ratio_pyramid(pyramid(std::sqrt(.5))), 1, 1e-14);
   for (const double h : {.25, .5, 2.0}) {
-    EXPECT_NEAR(mean_ratio_pyramid(pyramid(h)), 3 * std::pow(std::sqrt(2.0) * h, 2.0 / 3) / (2 + 2 * h * h), 1e-14);
+    EXPECT_NEAR(mean_ratio_pyramid(pyramid(h)), 3 * std::pow(std::sqrt(2.0) * h, 2.0 / 3) / (2 + 2 * h * h),
+                1e-14);
   }
   EXPECT_NEAR(mean_ratio_pyramid(pyramid(-std::sqrt(.5))), -1, 1e-14);
 }

@@ -27,9 +27,9 @@ struct EvaluateOptions {
 ///   surface   see surface_shape.hpp;
 ///   fidelity  see fidelity.hpp;
 ///   topology  see topology.hpp, topology_difference.hpp and self_intersection.hpp;
-///   summary  the few figures to look at first, see summary.hpp;
+///   summary   the few figures to look at first, see summary.hpp;
 ///   shape     only with EvaluateOptions::shapes: the mesh against them, see shape_comparison.hpp;
-///   faults    what is wrong with the mesh, a line each, see faults.hpp.
+///   faults    what is wrong with the mesh, one line per fault, see faults.hpp.
 /// A figure that cannot be had is null, never NaN. The bytes do not depend on the thread count. Throws
 /// InputError when a cell names a vertex that does not exist or a coordinate is not finite.
 nlohmann::json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& options,

@@ -1,3 +1,5 @@
+#include "metrics/evaluate.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -131,10 +133,24 @@ Mesh shaken_mesh(const LabelImage& image) {
   return mesh;
 }
 
-// Without the faults, which name places.
+// Brings the places that are named (at_mm) back to the image's local frame.
+void bring_home(json& figures, const ImageFrame& frame) {
+  for (auto& [key, value] : figures.items()) {
+    if (key.ends_with("at_mm") && value.is_array()) {
+      const Vec3 local =
+          frame.to_local({value[0].get<double>(), value[1].get<double>(), value[2].get<double>()});
+      value = {local.x, local.y, local.z};
+    } else if (value.is_structured()) {
+      bring_home(value, frame);
+    }
+  }
+}
+
+// Without the faults, which name places in words.
 json figures(const LabelImage& image) {
   json result = test::judge(shaken_mesh(image), image);
   result.erase("faults");
+  bring_home(result, image.frame);
   return result;
 }
 

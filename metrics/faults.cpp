@@ -65,7 +65,7 @@ void add_label_faults(FaultList& faults, const MeshView& view, const Topology& t
     const LabelTopology& one = topology.per_label[l];
     const std::string who = "label " + std::to_string(view.labels()[l]);
     if (one.non_manifold_edges + one.non_manifold_vertices > 0) {
-      faults.add(who + ": its surface is no manifold at " + std::to_string(one.non_manifold_edges) +
+      faults.add(who + ": its surface is non-manifold at " + std::to_string(one.non_manifold_edges) +
                  " edges and " + std::to_string(one.non_manifold_vertices) + " further vertices");
     }
     if (const VoxelSetTopology* in_image = find_label(image_topology, image, view.labels()[l])) {

@@ -59,9 +59,9 @@ class FidelityMeasurer {
     boundaries_ = image_boundaries(image_);
     image_.voxels.page_out();
     const std::size_t labels = image_.material_count();
-    for (std::size_t m = 1, told = 0; m < labels; ++m) {
-      if (const std::size_t percent = 100 * m / labels; percent > told || m == 1) {
-        told = percent;
+    for (std::size_t m = 1, reported = 0; m < labels; ++m) {
+      if (const std::size_t percent = 100 * m / labels; percent > reported || m == 1) {
+        reported = percent;
         progress_.step("distances", 0.45 + 0.5 * static_cast<double>(m - 1) / static_cast<double>(labels));
       }
       if (voxels[m] > 0) {

@@ -14,7 +14,7 @@
 
 namespace cbc3d::metrics {
 
-/// Beyond so many interfaces their table would be the bulk of the result, and nobody reads it.
+/// With more interfaces than this their table would be the bulk of the result, and nobody reads it.
 inline constexpr std::size_t kMostInterfaces = 10000;
 
 struct FidelityOptions {

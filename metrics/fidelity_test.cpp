@@ -1,3 +1,5 @@
+#include "metrics/fidelity.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -25,7 +25,8 @@ struct InnerVertices {
 
 /// Figures are nothing where the mesh has no cell (of ratios between neighbours: no two cells at a facet).
 struct Gradation {
-  /// Larger over smaller size of two cells that share a facet, whatever their labels; infinite at a flat cell.
+  /// Larger over smaller size of two cells that share a facet, whatever their labels; infinite at a flat
+  /// cell.
   std::optional<double> size_ratio_p99, size_ratio_max;
   std::optional<std::int64_t> valence_median, valence_p99, valence_max;
   std::size_t valence_max_vertex = 0;  ///< the first that has it
@@ -39,8 +40,8 @@ struct Gradation {
 /// `facets` of `view` (sorted_facets), `surface` made from them. Expected time n, memory 40 bytes a cell.
 Gradation gradation(const MeshView& view, const std::vector<Facet>& facets, const Surface& surface);
 
-/// Writes into the section `quality` neighbour_size_ratio ({p99, max}), valence_median, valence_p99, valence_max,
-/// valence_max_at_mm, vertex_edge_ratio ({p99, max}), inner_vertices, inner_vertices_percent and
+/// Writes into the section `quality` neighbour_size_ratio ({p99, max}), valence_median, valence_p99,
+/// valence_max, valence_max_at_mm, vertex_edge_ratio ({p99, max}), inner_vertices, inner_vertices_percent and
 /// vertices_off_surfaces_percent; inner_vertices_percent into each row of its per_label.
 void write_json(nlohmann::json& quality, const Gradation& gradation, const MeshView& view);
 

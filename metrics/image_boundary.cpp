@@ -12,7 +12,7 @@ struct SliceBoundary {
   struct Voxel {
     std::int32_t i, j;
     MaterialId material;
-    std::uint8_t faces;  // so many of the faces are this voxel's
+    std::uint8_t faces;  // number of the faces that are this voxel's
   };
   std::vector<Voxel> voxels;
   std::vector<VoxelFace> faces;

@@ -24,9 +24,9 @@ struct VoxelSetTopology {
   std::int64_t ambiguous = 0;  ///< corners of voxels at which the two differ
 };
 
-/// Eight times what a corner of the voxel grid adds to the Euler characteristic of a set of voxels, by which of the
-/// 8 voxels at it (bit x + 2y + 4z) are in the set. The corner has 6 half edges and 12 quarter faces; each of them
-/// belongs to 2 and to 4 corners, each voxel to 8.
+/// Eight times what a corner of the voxel grid adds to the Euler characteristic of a set of voxels, by which
+/// of the 8 voxels at it (bit x + 2y + 4z) are in the set. The corner has 6 half edges and 12 quarter faces;
+/// each of them belongs to 2 and to 4 corners, each voxel to 8.
 struct CornerTables {
   std::array<int, 256> closed, open;
 };

@@ -176,7 +176,7 @@ bool join_round_edge(std::span<const BoundaryEdge> edges, const std::vector<Vec3
   return true;
 }
 
-// Parts of the complement of the link of a vertex in the sphere round it: 1 + b1 = 1 + b0 - chi.
+// Parts of the complement of the link of a vertex in the sphere around it: 1 + b1 = 1 + b0 - chi.
 std::int64_t outer_parts_at(const MeshView& view, const VertexCells& at, VertexId v, const ClassOf& class_of,
                             std::uint32_t of_class) {
   std::vector<VertexId> ends;

@@ -23,7 +23,7 @@ struct MeshBetti {
   CellSetTopology all;                     ///< all cells as one set
 };
 
-/// b0 counts the parts that share not so much as a vertex, b2 the parts of the complement (each is the outer
+/// b0 counts the parts that share no vertex, b2 the parts of the complement (each is the outer
 /// side of one connected run of boundary facets; at an edge with more than two of them facets are paired by
 /// angle), b1 follows from the Euler characteristic. Time n log n.
 MeshBetti mesh_betti(const MeshView& view, const std::vector<Facet>& facets);

@@ -40,7 +40,7 @@ class LocatedTet {
   double volume_;
 };
 
-// Calls visit(offset, depth) for the voxel centres within a tet or on its border.
+// Calls visit(offset) for the voxel centres within a tet or on its border.
 template <class Visit>
 void for_centres_in(const LocatedTet& tet, const ImageFrame& frame, const Visit& visit) {
   const Box box = tet.box();
@@ -56,9 +56,8 @@ void for_centres_in(const LocatedTet& tet, const ImageFrame& frame, const Visit&
   for (int k = low[2]; k <= high[2]; ++k) {
     for (int j = low[1]; j <= high[1]; ++j) {
       for (int i = low[0]; i <= high[0]; ++i) {
-        const double depth = tet.depth(frame.local_centre(i, j, k));
-        if (depth >= -kRelativeTolerance) {
-          visit(frame.offset(i, j, k), depth);
+        if (tet.depth(frame.local_centre(i, j, k)) >= -kRelativeTolerance) {
+          visit(frame.offset(i, j, k));
         }
       }
     }
@@ -71,7 +70,8 @@ bool has_bit(const Bits& bits, std::size_t n) {
   return (bits[n / 64] >> (n % 64) & 1U) != 0;
 }
 
-// Marks the voxels whose own label holds them, and finds those that another holds: pairs of wanted label and voxel.
+// Marks the voxels whose own label holds them, and finds those that another holds: pairs of wanted label and
+// voxel.
 std::vector<std::pair<std::uint32_t, std::size_t>> cover(const MeshView& view, const LabelImage& image,
                                                          const std::vector<RasterLabel>& labels,
                                                          const std::vector<std::uint32_t>& wanted,
@@ -89,11 +89,11 @@ std::vector<std::pair<std::uint32_t, std::size_t>> cover(const MeshView& view, c
       const TetSplit split = split_into_tets(view.cell(c));
       for (int t = 0; t < split.count; ++t) {
         const LocatedTet tet(split.tets[static_cast<std::size_t>(t)], view.local_points());
-        for_centres_in(tet, image.frame, [&](std::size_t voxel, double depth) {
+        for_centres_in(tet, image.frame, [&](std::size_t voxel) {
           if (image.voxels[voxel] == labels[n].material) {
             std::atomic_ref(agreed[voxel / 64])
                 .fetch_or(std::uint64_t{1} << (voxel % 64), std::memory_order_relaxed);
-          } else if (depth > kRelativeTolerance) {
+          } else {
             mine.emplace_back(n, voxel);
           }
         });
@@ -120,7 +120,9 @@ std::vector<RelabelledVoxels> relabelled_voxels(const MeshView& view, const Labe
   std::vector<RelabelledVoxels> result(labels.size());
   Bits agreed((image.voxels.size() + 63) / 64, 0);
   for (const auto& [n, voxel] : cover(view, image, labels, wanted, agreed)) {
-    result[n].overfilled.push_back(voxel);
+    if (!has_bit(agreed, voxel)) {
+      result[n].overfilled.push_back(voxel);
+    }
   }
   image.voxels.visit([&](const auto* voxels) {
     const auto size = static_cast<std::size_t>(image.frame.size[0]);

@@ -10,8 +10,8 @@
 
 namespace cbc3d::metrics {
 
-/// The value at per mille ranks, ascending: the smallest value that at least so many per mille of the values do
-/// not exceed. Reorders the values. Nothing of no values. Expected time is linear.
+/// The value at per mille ranks, ascending: the smallest value that at least so many per mille of the values
+/// do not exceed. Reorders the values. Nothing of no values. Expected time is linear.
 template <class Value, std::size_t Ranks>
 std::optional<std::array<double, Ranks>> order_statistics(std::span<Value> values,
                                                           const std::array<std::size_t, Ranks>& per_mille) {

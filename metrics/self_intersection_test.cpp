@@ -282,10 +282,11 @@ TEST(SelfIntersection, IsToldWithItsPlace) {
   EXPECT_EQ(first["labels"][0], nlohmann::json::array({1, nullptr}));
   EXPECT_EQ(first["labels"][1], nlohmann::json::array({7, nullptr}));
   EXPECT_NEAR(first["at_mm"][0].get<double>(), 1.5, .2);
-  bool told = false;
+  bool reported = false;
   for (const nlohmann::json& fault : result["faults"])
-    told = told || fault.get<std::string>().find("pairs of surface facets that cut") != std::string::npos;
-  EXPECT_TRUE(told) << result["faults"];
+    reported =
+        reported || fault.get<std::string>().find("pairs of surface facets that cut") != std::string::npos;
+  EXPECT_TRUE(reported) << result["faults"];
 }
 
 }  // namespace

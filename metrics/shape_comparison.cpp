@@ -21,7 +21,7 @@ std::vector<OutwardTriangle> outward_triangles(const std::vector<VoxelFace>& fac
     std::array<Vec3, 4> ring{box.low, box.low, box.high, box.high};
     ring[1][u] = box.high[u];
     ring[3][u] = box.low[u];
-    // The ring runs counter-clockwise seen from the high side, a left-handed frame turns it round.
+    // The ring runs counter-clockwise seen from the high side, and clockwise in a left-handed frame.
     if ((face.side < 0) != frame.left_handed()) {
       std::swap(ring[1], ring[3]);
     }

@@ -21,7 +21,7 @@ struct ShapePair {
 
 /// The image's labels whose shape is known at every place that is asked for, and that the mesh has,
 /// ascending. What lies within a voxel of the image's border is left out: there shapes are cut off. Of more
-/// than 30,000 triangles of a surface so many are looked at, evenly picked.
+/// than 30,000 triangles of a surface that many are looked at, evenly picked.
 std::vector<ShapePair> compare_with_shapes(const MeshView& view, const LabelImage& image,
                                            const Surface& surface, const LabelShapes& shapes);
 

@@ -65,7 +65,7 @@ VoxelBox bounds_of(const LabelImage& image, MaterialId material) {
   return box;
 }
 
-// Smoothed indicators of the materials in reach of a voxel: few as a rule, at most one a voxel. Those that
+// Smoothed indicators of the materials in reach of a voxel: few as a rule, at most one per voxel. Those that
 // collide in the table follow each other.
 class MaterialsInReach {
  public:

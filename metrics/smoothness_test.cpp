@@ -236,7 +236,7 @@ std::vector<OutwardTriangle> icosphere(double radius, int n) {
   return triangles;
 }
 
-// Mean angle between a facet's normal and the direction from the origin, by so many points that no rule is
+// Mean angle between a facet's normal and the direction from the origin, by enough points that no rule is
 // needed.
 double mean_angle_deg(const std::vector<OutwardTriangle>& triangles) {
   constexpr int kSteps = 40;

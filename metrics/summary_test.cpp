@@ -1,3 +1,5 @@
+#include "metrics/summary.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

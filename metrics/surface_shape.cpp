@@ -18,7 +18,8 @@ namespace {
 using nlohmann::json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-// Lattices have angles of exactly 60 and 90 degrees, which rounding must not scatter over both sides of a limit.
+// Lattices have angles of exactly 60 and 90 degrees, which rounding must not scatter over both sides of a
+// limit.
 constexpr double kToleranceDeg = 1e-6;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
@@ -78,9 +79,10 @@ class Sheet {
                                                      std::uint32_t label) const;
 
  private:
-  // A sharp element: its sharpest edge, and a vertex if it is a tip.
+  // A sharp element: its sharpest edge, the most pointed of its vertices, and whether that is a tip.
   struct SharpElement {
-    std::uint32_t edge, tip, any_vertex;
+    std::uint32_t edge, vertex;
+    bool is_tip;
   };
 
   void number_vertices();
@@ -90,7 +92,7 @@ class Sheet {
   [[nodiscard]] double most_off_corner_deg(std::size_t facet) const;
   [[nodiscard]] std::vector<bool> find_tips() const;
   [[nodiscard]] std::vector<SharpElement> find_sharp_elements(DisjointSets& sets) const;
-  [[nodiscard]] bool points_outwards(const SharedEdge& edge) const;
+  [[nodiscard]] std::uint32_t most_pointed(std::span<const std::uint32_t> vertices) const;
   [[nodiscard]] SharpPlace place_of(const SharpElement& element) const;
   [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t facet) const {
     return {vertex_[facet].data(), corners_of(facets_[facet])};
@@ -100,6 +102,9 @@ class Sheet {
   std::vector<std::array<std::uint32_t, 4>> vertex_;  // of each corner of each facet
   std::vector<Vec3> points_;                          // of each vertex
   std::vector<Vec3> normals_, vertex_normals_;        // unit, or zero where there is none
+  // The mean cosine between a vertex's normal and the directions to the middles of its facets: -1 the tip of
+  // a needle that points outwards, 0 flat, 1 the bottom of a deep pit.
+  std::vector<double> pointedness_;
   std::vector<SharedEdge> edges_;
   std::vector<std::uint32_t> sharpest_edge_;  // of each facet, or kNone
 };
@@ -137,6 +142,27 @@ void Sheet::find_normals() {
   for (Vec3& normal : vertex_normals_) {
     normal = normal.normalized();
   }
+  pointedness_.assign(points_.size(), 0);
+  std::vector<std::uint32_t> count(points_.size(), 0);
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    Vec3 middle{};
+    for (const std::uint32_t v : corners(f)) {
+      middle += points_[v] / static_cast<double>(corners(f).size());
+    }
+    for (const std::uint32_t v : corners(f)) {
+      pointedness_[v] += (middle - points_[v]).normalized().dot(vertex_normals_[v]);
+      ++count[v];
+    }
+  }
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    pointedness_[v] /= count[v];
+  }
+}
+
+std::uint32_t Sheet::most_pointed(std::span<const std::uint32_t> vertices) const {
+  return *std::max_element(vertices.begin(), vertices.end(), [this](std::uint32_t a, std::uint32_t b) {
+    return std::fabs(pointedness_[a]) < std::fabs(pointedness_[b]);
+  });
 }
 
 void Sheet::find_edges() {
@@ -241,7 +267,8 @@ std::vector<Sheet::SharpElement> Sheet::find_sharp_elements(DisjointSets& sets) 
   for (std::uint32_t e = 0; e < edges_.size(); ++e) {
     const SharedEdge& edge = edges_[e];
     if (edge.angle_deg > kSharpAnglesDeg.back() + kToleranceDeg) {
-      elements.push_back({e, kNone, edge.low});
+      const std::array<std::uint32_t, 2> ends{edge.low, edge.high};
+      elements.push_back({e, most_pointed(ends), false});
       sets.join(edge.low, edge.high);
     }
   }
@@ -251,7 +278,7 @@ std::vector<Sheet::SharpElement> Sheet::find_sharp_elements(DisjointSets& sets) 
     const std::uint32_t sharpest = sharpest_edge_[f];
     const bool off = off_normal_deg(f) > kOffNormalDeg + kToleranceDeg;
     if (off) {
-      elements.push_back({sharpest, kNone, corners(f)[0]});
+      elements.push_back({sharpest, most_pointed(corners(f)), false});
     }
     for (const std::uint32_t v : corners(f)) {
       if (off || is_tip[v]) {
@@ -265,32 +292,21 @@ std::vector<Sheet::SharpElement> Sheet::find_sharp_elements(DisjointSets& sets) 
   }
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
     if (is_tip[v]) {
-      elements.push_back({sharpest_at[v], v, v});
+      elements.push_back({sharpest_at[v], v, true});
     }
   }
   return elements;
 }
 
-// The other facet's corners lie behind a facet's plane at an edge that points outwards.
-bool Sheet::points_outwards(const SharedEdge& edge) const {
-  Vec3 centre{};
-  for (const std::uint32_t v : corners(edge.other)) {
-    centre += points_[v] / static_cast<double>(corners(edge.other).size());
-  }
-  return (centre - points_[edge.low]).dot(normals_[edge.facet]) < 0;
-}
-
 SharpPlace Sheet::place_of(const SharpElement& element) const {
   SharpPlace place;
-  place.at_mm = points_[element.any_vertex];
+  place.at_mm = points_[element.vertex];
   if (element.edge != kNone) {
     const SharedEdge& edge = edges_[element.edge];
     place.angle_deg = edge.angle_deg;
-    place.at_mm = 0.5 * (points_[edge.low] + points_[edge.high]);
-    place.kind = points_outwards(edge) ? PlaceKind::kSpike : PlaceKind::kPit;
-  }
-  if (element.tip != kNone) {
-    place.at_mm = points_[element.tip];
+    if (!element.is_tip) {
+      place.at_mm = 0.5 * (points_[edge.low] + points_[edge.high]);
+    }
   }
   return place;
 }
@@ -314,7 +330,8 @@ std::optional<MaterialId> find_material(const LabelImage& image, Label label) {
                                      : std::optional(static_cast<MaterialId>(found - image.labels.begin()));
 }
 
-PlaceKind kind_in_image(const LabelImage& image, std::optional<MaterialId> material, const SharpPlace& place) {
+PlaceKind kind_in_image(const LabelImage& image, std::optional<MaterialId> material,
+                        const SharpPlace& place) {
   if (!material) {
     return place.kind;
   }
@@ -330,22 +347,29 @@ std::vector<SharpPlace> Sheet::sharp_places(const MeshView& view, const LabelIma
   const std::vector<SharpElement> elements = find_sharp_elements(sets);
   std::vector<std::uint32_t> number(points_.size(), kNone);  // of the place of each root
   std::vector<SharpPlace> places;
-  std::vector<bool> has_tip;
+  std::vector<std::pair<bool, double>> rank;  // tips first, then by angle
+  std::vector<double> pointed;                // the most pointed vertex of each place
   for (const SharpElement& element : elements) {
-    std::uint32_t& n = number[sets.root(element.any_vertex)];
+    std::uint32_t& n = number[sets.root(element.vertex)];
     if (n == kNone) {
       n = static_cast<std::uint32_t>(places.size());
       places.emplace_back();
-      has_tip.push_back(false);
+      rank.emplace_back(false, -1);
+      pointed.push_back(0);
     }
-    SharpPlace candidate = place_of(element);
-    const bool is_tip = element.tip != kNone;
+    const SharpPlace candidate = place_of(element);
     const std::int64_t size = places[n].size + 1;
-    if (size == 1 || std::pair(is_tip, candidate.angle_deg) > std::pair(bool{has_tip[n]}, places[n].angle_deg)) {
+    if (std::pair(element.is_tip, candidate.angle_deg) > rank[n]) {
+      rank[n] = {element.is_tip, candidate.angle_deg};
       places[n] = candidate;
-      has_tip[n] = is_tip;
     }
     places[n].size = size;
+    if (std::fabs(pointedness_[element.vertex]) > std::fabs(pointed[n])) {
+      pointed[n] = pointedness_[element.vertex];
+    }
+  }
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    places[n].kind = pointed[n] > 0 ? PlaceKind::kPit : PlaceKind::kSpike;
   }
   const std::optional<MaterialId> material = find_material(image, view.labels()[label]);
   for (SharpPlace& place : places) {

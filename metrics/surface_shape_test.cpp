@@ -22,7 +22,8 @@ Star icosahedron() {
   Star star;
   for (const double s : {-1.0, 1.0}) {
     for (const double g : {-kGolden, kGolden}) {
-      for (const Vec3& p : {Vec3{0, s, g}, Vec3{s, g, 0}, Vec3{g, 0, s}}) star.points.push_back(p.normalized());
+      for (const Vec3& p : {Vec3{0, s, g}, Vec3{s, g, 0}, Vec3{g, 0, s}})
+        star.points.push_back(p.normalized());
     }
   }
   const double side = 2 / std::sqrt(1 + kGolden * kGolden);
@@ -46,13 +47,15 @@ Star refined(const Star& star) {
   Star fine{star.points, {}};
   std::map<std::pair<VertexId, VertexId>, VertexId> middles;
   const auto middle = [&](VertexId a, VertexId b) {
-    const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<VertexId>(fine.points.size()));
+    const auto [at, is_new] =
+        middles.try_emplace(std::minmax(a, b), static_cast<VertexId>(fine.points.size()));
     if (is_new) fine.points.push_back((star.points[a] + star.points[b]).normalized());
     return at->second;
   };
   for (const auto& [a, b, c] : star.facets) {
     const VertexId ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const auto& facet : {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}})
+    for (const auto& facet :
+         {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}})
       fine.facets.push_back(facet);
   }
   return fine;
@@ -97,7 +100,8 @@ TEST(SurfaceShape, Icosahedron) {
   const double angle = std::acos(std::sqrt(5.0) / 3) * 180 / M_PI;
   EXPECT_EQ(found.outer.facets, 20);
   EXPECT_EQ(found.outer.edges, 30);
-  for (const auto& figure : {found.outer.angle_rms_deg, found.outer.angle_p95_deg, found.outer.angle_max_deg}) {
+  for (const auto& figure :
+       {found.outer.angle_rms_deg, found.outer.angle_p95_deg, found.outer.angle_max_deg}) {
     EXPECT_NEAR(*figure, angle, 1e-9);
   }
   EXPECT_EQ(found.outer.edges_over, (std::array<std::int64_t, 3>{0, 0, 0}));

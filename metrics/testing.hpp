@@ -70,7 +70,7 @@ inline Mesh kuhn_mesh(const LabelImage& image) {
   return mesh;
 }
 
-/// The body-centred cubic lattice of n cubes a side: four tets round the line between the centres of every
+/// The body-centred cubic lattice of n cubes a side: four tets around the line between the centres of every
 /// two cubes that share a face.
 inline Mesh bcc_block(int n, double side_mm, Label label) {
   Mesh mesh;
@@ -94,7 +94,7 @@ inline Mesh bcc_block(int n, double side_mm, Label label) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Index3 high = low;
       if (++high[axis] == n) continue;
-      std::array<Index3, 4> ring{high, high, high, high};  // round the face between the two
+      std::array<Index3, 4> ring{high, high, high, high};  // around the face between the two
       const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
       ++ring[1][u], ++ring[2][u], ++ring[2][v], ++ring[3][v];
       for (std::size_t r = 0; r < 4; ++r) {

@@ -5,8 +5,8 @@
 namespace cbc3d::metrics {
 namespace {
 
-// A window of rows along x, a bit for each voxel: the voxels near a place, those that a block around them reaches, and
-// those that this block's own voxels reach.
+// A window of rows along x, a bit for each voxel: the voxels near a place, those that a block around them
+// reaches, and those that this block's own voxels reach.
 constexpr int kMargin = 2;  // an erosion and a dilation by one voxel each
 constexpr int kSide = 2 * (kThinReach + kMargin) + 1;
 using Window = std::array<std::array<unsigned, kSide>, kSide>;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -97,8 +98,8 @@ void find_place(const MeshView& view, MeshPart& part) {
 }
 
 // The components of the image that a part lies in, ascending; those next to it where it lies in none.
-std::vector<std::uint32_t> components_under(const MeshView& view, const ImageFrame& frame, const MeshPart& part,
-                                            const VoxelComponents& components) {
+std::vector<std::uint32_t> components_under(const MeshView& view, const ImageFrame& frame,
+                                            const MeshPart& part, const VoxelComponents& components) {
   std::vector<std::uint32_t> found;
   for (const int reach : {0, 1}) {
     for (const std::uint32_t c : part.cells) {
@@ -121,7 +122,8 @@ std::vector<std::uint32_t> components_under(const MeshView& view, const ImageFra
 }
 
 // The sheets of a label's surface, joined at edges, that enclose a negative volume: walls of cavities.
-std::vector<std::vector<Vec3>> cavity_walls(const MeshView& view, const Surface& surface, std::uint32_t label) {
+std::vector<std::vector<Vec3>> cavity_walls(const MeshView& view, const Surface& surface,
+                                            std::uint32_t label) {
   struct Side {
     std::uint64_t low, high;
     std::uint32_t facet;
@@ -194,9 +196,8 @@ std::optional<std::uint32_t> cavity_of(const std::vector<Vec3>& wall, const Imag
     });
   }
   const auto most = std::max_element(votes.begin(), votes.end());
-  return most == votes.end() || *most == 0
-             ? std::nullopt
-             : std::optional(static_cast<std::uint32_t>(most - votes.begin()));
+  return most == votes.end() || *most == 0 ? std::nullopt
+                                           : std::optional(static_cast<std::uint32_t>(most - votes.begin()));
 }
 
 // Where the Euler characteristic of a material changes while voxels are relabelled one after the other.
@@ -205,8 +206,8 @@ class EulerWalk {
   EulerWalk(const LabelImage& image, MaterialId material, bool open)
       : image_(image), material_(material), table_(open ? corner_tables().open : corner_tables().closed) {}
 
-  /// Relabels the voxels of each group of neighbours; appends those at which the group changed the characteristic by
-  /// what has the sign of `sign`, as many of each group as it changed it by in all.
+  /// Relabels the voxels of each group of neighbours; appends those at which the group changed the
+  /// characteristic by what has the sign of `sign`, as many of each group as it changed it by in all.
   void relabel(const std::vector<std::size_t>& voxels, int sign, std::vector<Index3>& places) {
     for (const std::vector<std::size_t>& group : groups_of(voxels)) {
       int total = 0;
@@ -257,7 +258,8 @@ class EulerWalk {
   }
 
   // Voxels that touch, at corners too; ascending within a group, groups by their first.
-  [[nodiscard]] std::vector<std::vector<std::size_t>> groups_of(const std::vector<std::size_t>& voxels) const {
+  [[nodiscard]] std::vector<std::vector<std::size_t>> groups_of(
+      const std::vector<std::size_t>& voxels) const {
     DisjointSets sets(voxels.size());
     for (std::uint32_t v = 0; v < voxels.size(); ++v) {
       for_neighbourhood(image_.frame.index_of(voxels[v]), [&](const Index3& at) {
@@ -293,8 +295,8 @@ class EulerWalk {
 // The places of one label.
 class PlaceFinder {
  public:
-  PlaceFinder(const MeshView& view, const Surface& surface, const LabelImage& image, const DifferingLabel& label,
-              const VoxelBox& box)
+  PlaceFinder(const MeshView& view, const Surface& surface, const LabelImage& image,
+              const DifferingLabel& label, const VoxelBox& box)
       : view_(view), surface_(surface), image_(image), label_(label), box_(box) {}
 
   void find_parts(const std::vector<std::uint32_t>& cells);
@@ -397,6 +399,8 @@ void PlaceFinder::find_tunnels(const RelabelledVoxels& voxels) {
   std::vector<Index3> found;
   walk.relabel(voxels.uncovered, added ? -1 : 1, found);
   walk.relabel(voxels.overfilled, added ? -1 : 1, found);
+  // Where some tunnels are added and others lost, the label differs by fewer than there are places.
+  found.resize(std::min(found.size(), static_cast<std::size_t>(std::abs(label_.difference->b[1]))));
   for (const Index3& voxel : found) {
     add(added ? TopologyPlaceKind::kTunnelAdded : TopologyPlaceKind::kTunnelLost, voxel);
   }
@@ -407,7 +411,8 @@ bool differs(const DifferingLabel& label, std::size_t dimension) {
 }
 
 // The cells of each of the labels.
-std::vector<std::vector<std::uint32_t>> cells_of(const MeshView& view, const std::vector<DifferingLabel>& labels) {
+std::vector<std::vector<std::uint32_t>> cells_of(const MeshView& view,
+                                                 const std::vector<DifferingLabel>& labels) {
   std::vector<std::vector<std::uint32_t>*> wanted(view.labels().size(), nullptr);
   std::vector<std::vector<std::uint32_t>> cells(labels.size());
   for (std::size_t n = 0; n < labels.size(); ++n) {
@@ -447,7 +452,8 @@ std::vector<std::optional<RelabelledVoxels>> voxels_of(const MeshView& view, con
 }  // namespace
 
 std::vector<TopologyPlace> topology_places(const MeshView& view, const Surface& surface,
-                                           const LabelImage& image, const std::vector<DifferingLabel>& labels) {
+                                           const LabelImage& image,
+                                           const std::vector<DifferingLabel>& labels) {
   if (labels.empty()) {
     return {};
   }

@@ -11,13 +11,14 @@
 
 namespace cbc3d::metrics {
 
-/// Parts and cavities of mesh and image are matched by where they lie. A part of the image is lost when no cell of the
-/// label lies in it, split when cells of several parts of the mesh do; a part of the mesh is added when it lies in no
-/// voxel of the label, and parts are joined when it lies in several of the image's. Cavities of the mesh are closed
-/// sheets of the label's surface that face inwards; they belong to the image's cavity that most of their vertices lie
-/// next to. Tunnels are found at the scale of voxels: voxel centres that the mesh labels otherwise than the image are
-/// relabelled one after the other, and where the Euler characteristic of a group of neighbours changes by as much as
-/// tunnels would change it, there is a place for each. Tunnels finer than that have none.
+/// Parts and cavities of mesh and image are matched by where they lie. A part of the image is lost when no
+/// cell of the label lies in it, split when cells of several parts of the mesh do; a part of the mesh is
+/// added when it lies in no voxel of the label, and parts are joined when it lies in several of the image's.
+/// Cavities of the mesh are closed sheets of the label's surface that face inwards; they belong to the
+/// image's cavity that most of their vertices lie next to. Tunnels are found at the scale of voxels: voxel
+/// centres that the mesh labels otherwise than the image are relabelled one after the other, and where the
+/// Euler characteristic of a group of neighbours changes by as much as tunnels would change it, there is a
+/// place for each. Tunnels finer than that have none.
 enum class TopologyPlaceKind : std::uint8_t {
   kPartLost,
   kPartAdded,
@@ -28,9 +29,9 @@ enum class TopologyPlaceKind : std::uint8_t {
   kTunnelLost,
   kTunnelAdded
 };
-inline constexpr std::array<const char*, 8> kTopologyPlaceNames{
-    "part_lost",   "part_added",   "part_split",  "parts_joined",
-    "cavity_lost", "cavity_added", "tunnel_lost", "tunnel_added"};
+inline constexpr std::array<const char*, 8> kTopologyPlaceNames{"part_lost",    "part_added",  "part_split",
+                                                                "parts_joined", "cavity_lost", "cavity_added",
+                                                                "tunnel_lost",  "tunnel_added"};
 
 struct TopologyPlace {
   Label label = 0;
@@ -47,11 +48,13 @@ struct DifferingLabel {
   std::optional<std::uint32_t> mesh_label;  ///< index into MeshView::labels()
   std::optional<MaterialId> material;       ///< of the image
   bool open = false;                        ///< see topology_difference.hpp
-  std::optional<Betti> difference;          ///< mesh minus image; nothing: not known, parts and cavities are looked at
+  std::optional<Betti>
+      difference;  ///< mesh minus image; nothing: not known, parts and cavities are looked at
 };
 
 /// The places of all these labels, in their order, of each the parts first.
 std::vector<TopologyPlace> topology_places(const MeshView& view, const Surface& surface,
-                                           const LabelImage& image, const std::vector<DifferingLabel>& labels);
+                                           const LabelImage& image,
+                                           const std::vector<DifferingLabel>& labels);
 
 }  // namespace cbc3d::metrics

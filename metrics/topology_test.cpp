@@ -1,3 +1,5 @@
+#include "metrics/topology.hpp"
+
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -119,8 +119,7 @@ void VoxelComponents::describe() {
   const auto for_each_run = [this](const auto& visit) {
     for (int k = box_.low[2]; k <= box_.high[2]; ++k) {
       for (int j = box_.low[1]; j <= box_.high[1]; ++j) {
-        const bool at_border =
-            j == box_.low[1] || j == box_.high[1] || k == box_.low[2] || k == box_.high[2];
+        const bool at_border = j == box_.low[1] || j == box_.high[1] || k == box_.low[2] || k == box_.high[2];
         for (std::size_t r = first_[row(j, k)]; r < first_[row(j, k) + 1]; ++r) {
           visit(component_[r], runs_[r], j, k, at_border);
         }

@@ -19,9 +19,9 @@ struct VoxelComponent {
   Index3 place{};               ///< its voxel nearest to its centroid
 };
 
-/// Runs of voxels along rows, joined. The set is a material, or with `complement` all that is not the material; what
-/// lies outside the image is not the material, and the box may reach there. Memory is proportional to the runs, time
-/// too but for the reading of the voxels.
+/// Runs of voxels along rows, joined. The set is a material, or with `complement` all that is not the
+/// material; what lies outside the image is not the material, and the box may reach there. Memory is
+/// proportional to the runs, time too but for the reading of the voxels.
 class VoxelComponents {
  public:
   struct Set {
@@ -46,8 +46,8 @@ class VoxelComponents {
 
   VoxelBox box_;
   std::vector<Run> runs_;
-  std::vector<std::size_t> first_;         // run of every row of the box, and the end
-  std::vector<std::uint32_t> component_;   // of every run
+  std::vector<std::size_t> first_;        // run of every row of the box, and the end
+  std::vector<std::uint32_t> component_;  // of every run
   std::vector<VoxelComponent> components_;
 };
 

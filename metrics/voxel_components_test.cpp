@@ -47,12 +47,14 @@ TEST(VoxelComponents, AgreeWithTheBettiNumbersOfRandomImages) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     LabelImage image = test::empty_image({9, 8, 7}, {1, 1, 1}, {0, 1, 2});
-    for (std::size_t v = 0; v < image.voxels.size(); ++v) image.voxels[v] = static_cast<MaterialId>(random() % 3);
+    for (std::size_t v = 0; v < image.voxels.size(); ++v)
+      image.voxels[v] = static_cast<MaterialId>(random() % 3);
     const ImageTopology topology = image_topology(image);
     const std::vector<VoxelBox> boxes = boxes_of_materials(image);
     for (const MaterialId m : {MaterialId{1}, MaterialId{2}}) {
       const auto count = [&](bool complement, bool at_corners) {
-        const VoxelComponents found(image, {m, complement, at_corners}, complement ? padded(boxes[m]) : boxes[m]);
+        const VoxelComponents found(image, {m, complement, at_corners},
+                                    complement ? padded(boxes[m]) : boxes[m]);
         return static_cast<std::int64_t>(found.components().size());
       };
       EXPECT_EQ(count(false, true), topology.per_material[m].closed.b[0]);

@@ -5,8 +5,9 @@
 
 namespace cbc3d::baselines {
 
-Adapter cbc3d_adapter();        ///< the default preset
-Adapter cbc3d_paper_adapter();  ///< the preset with the paper's settings
-Adapter cbc3d_mixed_adapter();  ///< the paper's preset with mixed elements
+/// cbc3d (the default preset), cbc3d-paper (the preset with the paper's settings) and cbc3d-mixed (the same
+/// with mixed elements). Their parameters are those that `cbc3d mesh --describe-options` prints for the
+/// preset.
+std::vector<Adapter> cbc3d_adapters();
 
 }  // namespace cbc3d::baselines

@@ -38,7 +38,7 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, Concurre
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
-// CGAL's image functions chat on standard output, which belongs to the caller's results.
+// CGAL's image functions print to standard output, which belongs to the caller's results.
 class SilencedStandardOutput {
  public:
   SilencedStandardOutput() : previous_(std::cout.rdbuf(&sink_)) {}
@@ -92,7 +92,7 @@ CGAL::Image_3 to_cgal_image(const LabelImage& image, std::size_t word_bytes) {
   return CGAL::Image_3(raw, CGAL::Image_3::OWN_THE_DATA);
 }
 
-// First points on the surface of every connected component, so that none goes unseen.
+// Gives first points on the surface of every connected component, so that none is missed.
 void seed_components(Complex& complex, const Domain& domain, const CGAL::Image_3& image,
                      const Criteria& criteria, std::size_t word_bytes) {
   const SilencedStandardOutput silence;

@@ -1,5 +1,5 @@
-// Our certified surface distances beside CGAL's bounded-error Hausdorff distance on the same surfaces. Here
-// and not among the metrics' own tests because CGAL is under the GPL.
+// Our certified surface distances agree with CGAL's bounded-error Hausdorff distance on the same surfaces.
+// The test is here and not among those of the metrics because CGAL is under the GPL.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Surface_mesh.h>
@@ -42,7 +42,7 @@ cbc3d::metrics::SearchableSurface<Triangle> our_surface(const std::vector<Triang
 std::vector<Triangle> bumpy_sphere(double radius, int n, double height, double waves, const Vec3& centre) {
   std::vector<Triangle> triangles = cbc3d::metrics::test::sphere_triangles(radius, n);
   const auto place = [&](Vec3& p) {
-    // Off the rounding of the cube's faces, whose edges meet here.
+    // The rounding makes points equal where edges of the cube's faces meet.
     for (int axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] * 1e9) / 1e9;
     p *= 1 + height * std::sin(waves * p.x) * std::cos(waves * p.y + p.z);
     p += centre;

@@ -2,11 +2,34 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <sstream>
 
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::baselines {
+
+struct ParameterSource::Cache {
+  Reader reader;
+  std::mutex mutex;
+  std::map<std::filesystem::path, ParameterSpecs> by_folder;
+};
+
+ParameterSource::ParameterSource(Reader reader) : cache_(std::make_shared<Cache>()) {
+  cache_->reader = std::move(reader);
+}
+
+const ParameterSpecs& ParameterSource::in(const std::filesystem::path& bin_dir) const {
+  const std::lock_guard lock(cache_->mutex);
+  const auto known = cache_->by_folder.find(bin_dir);
+  return known != cache_->by_folder.end()
+             ? known->second
+             : cache_->by_folder.emplace(bin_dir, cache_->reader(bin_dir)).first->second;
+}
+
+std::filesystem::path program_folder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
 
 Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,
                                      const std::string& remedy) {
@@ -32,8 +55,8 @@ std::filesystem::path find_program(const std::string& program) {
 
 namespace {
 
-std::string unknown_parameter(const std::string& mesher, const std::vector<ParameterSpec>& known,
-                              const std::string& key, const std::string& value) {
+std::string unknown_parameter(const std::string& mesher, const ParameterSpecs& known, const std::string& key,
+                              const std::string& value) {
   std::string message = mesher + "." + key + "=" + value + ": no such parameter; " + mesher + " knows ";
   for (const ParameterSpec& spec : known) message += (&spec == &known.front() ? "" : ", ") + spec.key;
   return message;
@@ -41,9 +64,16 @@ std::string unknown_parameter(const std::string& mesher, const std::vector<Param
 
 }  // namespace
 
-void require_known_parameters(const std::string& mesher, const std::vector<ParameterSpec>& known,
-                              const MeshJob& job) {
-  for (const auto& parameter : job.parameters) {
+void require_known_parameters(const Adapter& mesher, const std::filesystem::path& bin_dir,
+                              const std::map<std::string, std::string>& parameters) {
+  const ParameterSpecs& known = mesher.parameters.in(bin_dir);
+  if (known.empty() && !mesher.availability(bin_dir).available) return;
+  require_known_parameters(mesher.name, known, parameters);
+}
+
+void require_known_parameters(const std::string& mesher, const ParameterSpecs& known,
+                              const std::map<std::string, std::string>& parameters) {
+  for (const auto& parameter : parameters) {
     const auto same = [&](const ParameterSpec& spec) { return spec.key == parameter.first; };
     if (std::any_of(known.begin(), known.end(), same)) continue;
     throw InputError(unknown_parameter(mesher, known, parameter.first, parameter.second));
@@ -51,8 +81,8 @@ void require_known_parameters(const std::string& mesher, const std::vector<Param
 }
 
 std::vector<std::string> protocol_command(const std::filesystem::path& executable, const std::string& mesher,
-                                          const std::vector<ParameterSpec>& known, const MeshJob& job) {
-  require_known_parameters(mesher, known, job);
+                                          const ParameterSpecs& known, const MeshJob& job) {
+  require_known_parameters(mesher, known, job.parameters);
   std::vector<std::string> argv{executable.string(),         "--image",  job.image.string(),  "--out",
                                 job.mesh.string(),           "--report", job.report.string(), "--threads",
                                 std::to_string(job.threads), "--quiet"};

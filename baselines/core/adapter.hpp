@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,11 +22,32 @@ struct MeshJob {
 
 /// A parameter of a mesher, given on its command line as `--key value`.
 struct ParameterSpec {
-  std::string key;  ///< long option without its dashes
-  std::string
-      default_value;  ///< as text; "preset" where the mesher's preset decides, "off" where it is not applied
-  std::string unit;   ///< "mm", "deg", ...; "" for a bare number, "true|false" for a switch
-  std::string description;  ///< one line
+  std::string key;            ///< its long option without hyphens
+  std::string default_value;  ///< as text, or in words where it depends on the image
+  std::string unit;           ///< "mm", "deg", ...; "" for a bare number, "true|false" for a switch
+  std::string description;    ///< one line
+};
+
+using ParameterSpecs = std::vector<ParameterSpec>;
+
+/// The parameters of a mesher: a list, or what its own program says of them.
+class ParameterSource {
+ public:
+  /// Gives the parameters of the program in a folder; none where it is not there.
+  using Reader = std::function<ParameterSpecs(const std::filesystem::path& bin_dir)>;
+
+  ParameterSource(std::initializer_list<ParameterSpec> specs) : ParameterSource(ParameterSpecs(specs)) {}
+  explicit ParameterSource(ParameterSpecs specs = {})
+      : ParameterSource([specs = std::move(specs)](const std::filesystem::path&) { return specs; }) {}
+  explicit ParameterSource(Reader reader);
+
+  /// The parameters with the programs in `bin_dir`. The program is asked on the first call for its folder
+  /// only.
+  [[nodiscard]] const ParameterSpecs& in(const std::filesystem::path& bin_dir) const;
+
+ private:
+  struct Cache;
+  std::shared_ptr<Cache> cache_;  ///< shared by copies, so that the program is asked once for all
 };
 
 /// Whether a mesher can run here; `reason` says why not and how to get it.
@@ -41,27 +64,37 @@ struct Adapter {
   bool deterministic = true;   ///< same input, same bytes
   bool multithreaded = false;  ///< the meshing itself gains from more threads
   bool openmp = false;         ///< all its threads are OpenMP's
-  std::vector<ParameterSpec> parameters;
+  ParameterSource parameters{};
   std::function<Availability(const std::filesystem::path& bin_dir)> availability;
   /// The argument vector of a job. Throws InputError for a parameter the mesher does not have.
   std::function<std::vector<std::string>(const std::filesystem::path& bin_dir, const MeshJob&)> command;
   std::string mesh_extension = ".vtu";       ///< of the mesh file that the command writes
-  std::vector<std::string> version_command;  ///< prints the version; empty: the report tells it
+  std::vector<std::string> version_command;  ///< prints the version; empty: the report has it
 };
+
+/// The folder of the running program, which is that of all meshers' programs.
+std::filesystem::path program_folder();
 
 /// Available when `executable` is a file in `bin_dir`; otherwise the reason is `remedy`.
 Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,
                                      const std::string& remedy);
 
-/// Where the shell would find a program: itself when it is a path, else its place in PATH; empty: nowhere.
+/// Where the shell would find a program: a path is its own place, a name is sought in PATH. Empty when it is
+/// nowhere.
 std::filesystem::path find_program(const std::string& program);
 
-/// Throws InputError, naming the known keys, when `job` has a parameter that `known` lacks.
-void require_known_parameters(const std::string& mesher, const std::vector<ParameterSpec>& known,
-                              const MeshJob& job);
+/// Throws InputError, naming the known keys, when the mesher has none of that name. The parameters of a
+/// mesher whose program would have to name them and is not there are not judged, for its jobs end as
+/// unavailable.
+void require_known_parameters(const Adapter& mesher, const std::filesystem::path& bin_dir,
+                              const std::map<std::string, std::string>& parameters);
 
-/// The argument vector of an executable that speaks this room's protocol (see driver.hpp).
+/// The same for a list of parameters.
+void require_known_parameters(const std::string& mesher, const ParameterSpecs& known,
+                              const std::map<std::string, std::string>& parameters);
+
+/// The argument vector of an executable that follows the protocol of driver.hpp.
 std::vector<std::string> protocol_command(const std::filesystem::path& executable, const std::string& mesher,
-                                          const std::vector<ParameterSpec>& known, const MeshJob& job);
+                                          const ParameterSpecs& known, const MeshJob& job);
 
 }  // namespace cbc3d::baselines

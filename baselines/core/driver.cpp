@@ -69,7 +69,7 @@ struct Request {
   bool quiet = false;
 };
 
-// What becomes of a run, and then of its report.
+// How a run ended, for its report.
 struct Outcome {
   int exit_code = kExitSuccess;
   std::string status = "ok";
@@ -95,7 +95,7 @@ double cpu_seconds_with_children() {
   return process_cpu_seconds() + seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// A forked child shares its parent's pages, so the larger of the two is what the run took.
+// A forked child shares its parent's pages, so the run took the larger of the two.
 std::int64_t peak_rss_bytes_with_children() {
   return std::max(process_peak_rss_bytes(), static_cast<std::int64_t>(children_usage().ru_maxrss) * 1024);
 }
@@ -183,7 +183,7 @@ void fail(Outcome& outcome, int exit_code, const std::string& status, const std:
   outcome.reason = reason;
 }
 
-// Runs the job; whatever goes wrong ends in the outcome.
+// Runs the job; the outcome has what went wrong.
 Outcome attempt(const MesherProgram& program, Request& request, const ParameterValues& values) {
   Outcome outcome;
   try {
@@ -204,10 +204,11 @@ Outcome attempt(const MesherProgram& program, Request& request, const ParameterV
 
 int run_mesher_program(const MesherProgram& program, int argc, char** argv) {
   const Adapter& adapter = program.adapter;
-  ParameterValues values(adapter.parameters);
+  const ParameterSpecs& specs = adapter.parameters.in({});
+  ParameterValues values(specs);
   Request request;
   CLI::App app(adapter.description + " (licence: " + adapter.licence + ")");
-  add_options(app, request, values, adapter.parameters);
+  add_options(app, request, values, specs);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

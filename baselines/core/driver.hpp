@@ -1,4 +1,4 @@
-// The protocol that every mesher executable of this room speaks:
+// The protocol of the meshers' executables:
 //
 //   EXE --image IMAGE --out MESH --report FILE.json --threads N [--quiet] [--key value]...
 //

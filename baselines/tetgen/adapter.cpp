@@ -3,7 +3,7 @@
 namespace cbc3d::baselines {
 namespace {
 
-std::vector<ParameterSpec> parameters() {
+ParameterSpecs parameters() {
   return {
       {"radius-edge-ratio", "1.4", "", "largest circumradius to shortest edge ratio of a tet"},
       {"max-volume", "8", "mm^3", "largest volume of a tet"},
@@ -21,15 +21,19 @@ Adapter tetgen_adapter() {
   adapter.name = "tetgen";
   adapter.description = "TetGen behind a constrained surface net of the label image";
   adapter.licence = "AGPL-3.0-or-later";
-  adapter.parameters = parameters();
+  adapter.parameters = ParameterSource(parameters());
   adapter.availability = [](const std::filesystem::path& bin_dir) {
     return executable_availability(bin_dir, "cbc3d-mesher-tetgen",
                                    "built without TetGen: install libtet1.5-dev and build again");
   };
-  adapter.command = [specs = adapter.parameters](const std::filesystem::path& bin_dir, const MeshJob& job) {
+  adapter.command = [specs = parameters()](const std::filesystem::path& bin_dir, const MeshJob& job) {
     return protocol_command(bin_dir / "cbc3d-mesher-tetgen", "tetgen", specs, job);
   };
   return adapter;
+}
+
+std::vector<Adapter> tetgen_adapters() {
+  return {tetgen_adapter()};
 }
 
 }  // namespace cbc3d::baselines

@@ -7,4 +7,7 @@ namespace cbc3d::baselines {
 
 Adapter tetgen_adapter();
 
+/// The same as a list.
+std::vector<Adapter> tetgen_adapters();
+
 }  // namespace cbc3d::baselines

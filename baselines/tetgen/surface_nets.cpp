@@ -69,7 +69,7 @@ void for_each_cell(const DualGrid& grid, Visit visit) {
   }
 }
 
-// Numbers the cells that see more than one label, in grid order; -1 for the others.
+// Numbers the cells that see more than one label in grid order; the others have -1.
 std::vector<int> number_vertices(const DualGrid& grid) {
   std::vector<int> ids(grid.count(), -1);
   for_each_cell(grid, [&](int i, int j, int k) {
@@ -124,7 +124,7 @@ Vec3 within_reach(const Vec3& p, const Vec3& centre, const Vec3& reach_mm) {
   return result;
 }
 
-// One Jacobi step: every vertex goes the share `factor` of its way to the mean of its links.
+// One Jacobi step: every vertex moves by the share `factor` of the way to the mean of its links.
 void smooth_once(const SurfaceNet& net, double factor, const std::vector<Vec3>& from, std::vector<Vec3>& to) {
   const auto count = static_cast<std::int64_t>(from.size());
 #pragma omp parallel for schedule(static)
@@ -175,7 +175,7 @@ void add_quad(const DualGrid& grid, const std::vector<int>& ids, const Index3& v
   sides.push_back({behind, ahead});
 }
 
-// Every quad once, in slice order. Voxel indices go one past the image, whose far side has faces too.
+// Visits every quad once, in slice order. Voxel indices go one past the image, whose far side has faces too.
 void collect_quads(const DualGrid& grid, const std::vector<int>& ids, std::vector<Quad>& quads,
                    std::vector<NetSides>& sides) {
   const Index3& n = grid.image.frame.size;

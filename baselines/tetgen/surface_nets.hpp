@@ -31,7 +31,7 @@ struct NetSides {
 
 /// Points are in local mm; the outside of the image counts as background.
 struct SurfaceNet {
-  std::vector<Vec3> points;   ///< one a cell that sees more than one label
+  std::vector<Vec3> points;   ///< one for each cell that sees more than one label
   std::vector<Vec3> centres;  ///< of those cells
   std::vector<std::array<int, 3>> triangles;
   std::vector<NetSides> sides;            ///< of each triangle

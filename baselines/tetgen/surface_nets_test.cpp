@@ -11,7 +11,7 @@
 namespace cbc3d::baselines {
 namespace {
 
-// A ball of two materials, halved, that touches the image's low x border, and one lone voxel of a third.
+// A ball of two materials, halved, that touches the image's low x border, and a single voxel of a third.
 LabelImage two_material_ball() {
   LabelImage image;
   image.frame.size = {20, 24, 16};
@@ -116,7 +116,7 @@ TEST(SurfaceNets, SmoothingKeepsVolumes) {
   const SurfaceNet net = surface_net(image, {});
   for (MaterialId material = 1; material <= 2; ++material)
     EXPECT_NEAR(volume_of(net, material) / voxel_volume(image, material), 1.0, 0.02);
-  EXPECT_GT(volume_of(net, 3), 0.05 * voxel_volume(image, 3));  // the lone voxel
+  EXPECT_GT(volume_of(net, 3), 0.05 * voxel_volume(image, 3));  // the single voxel
 }
 
 TEST(SurfaceNets, SmoothingSmooths) {

@@ -40,7 +40,7 @@ class NetInput {
     io_.numberoffacets = static_cast<int>(facets_.size());
     io_.facetlist = facets_.data();
   }
-  // tetgenio frees what its pointers show unless they are reset.
+  // tetgenio frees what its pointers point to unless they are reset.
   ~NetInput() { io_.initialize(); }
   NetInput(const NetInput&) = delete;
   NetInput& operator=(const NetInput&) = delete;
@@ -145,7 +145,7 @@ bool repair(SurfaceNet& net) {
   return !check.facets.empty();
 }
 
-// The material of every region: what most of its volume shows in the image.
+// The material of every region: the one that most of its volume has in the image.
 std::vector<MaterialId> vote(const TetgenOutput& output, const LabelImage& image) {
   const double last =
       output.regions.empty() ? 0 : *std::max_element(output.regions.begin(), output.regions.end());

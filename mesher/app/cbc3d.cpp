@@ -12,6 +12,7 @@
 #include "mesher/app/tile_command.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/pipeline/option_table.hpp"
 
 int main(int argc, char** argv) {
   cbc3d::let_waiting_threads_sleep(argv);
@@ -34,8 +35,13 @@ int main(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::CallForVersion& version) {
     return app.exit(version);
+  } catch (const CLI::Success&) {
+    return cbc3d::kExitSuccess;
   } catch (const CLI::ParseError& error) {
     std::cerr << "cbc3d: " << error.what() << " (see --help)\n";
+    return cbc3d::kExitBadInput;
+  } catch (const cbc3d::OptionError& error) {
+    std::cerr << "cbc3d: --" << error.what() << '\n';
     return cbc3d::kExitBadInput;
   } catch (const cbc3d::InputError& error) {
     std::cerr << "cbc3d: " << cbc3d::with_flags(error.what()) << '\n';

@@ -3,9 +3,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "mesher/app/material_options.hpp"
 #include "mesher/app/mesh_report.hpp"
-#include "mesher/app/option_overrides.hpp"
+#include "mesher/app/option_flags.hpp"
+#include "mesher/app/option_json.hpp"
+#include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
@@ -19,46 +20,43 @@ namespace {
 
 struct DeformCommand {
   std::string mesh, image, out;
-  std::string preset = "quality";
-  Overrides overrides;
-  MaterialOptions materials;
-  std::string report_file;
-  int threads = 0;
-  bool quiet = false;
+  std::string preset = preset_names().front();
+  OptionSettings settings;
+  CommonOptions common;
 };
 
+/// The preset's options without the improvement, as for a mesh of mixed elements.
+MeshImageOptions deforming_options(const DeformCommand& command, const ImageFrame& frame) {
+  return preset_options(command.preset, frame, true);
+}
+
 MeshImageOptions options_of(const DeformCommand& command, const LabelImage& image) {
-  MeshImageOptions options = preset_options(command.preset, image.frame, true);
-  for (const auto& apply : command.overrides) {
-    apply(options);
-  }
+  MeshImageOptions options = deforming_options(command, image.frame);
+  apply_settings(command.settings, options);
+  require_known_labels(options, image);
   // A mesh from a file may be deformed already, so that no tet of it is red to the last digit.
   options.mix.red_only = false;
   options.mix.min_scaled_jacobian = options.deform.quality.min_scaled_jacobian;
-  apply_material_options(command.materials, image, options.deform.elasticity);
   return options;
 }
 
-void write_report(const DeformCommand& command, const MeshImageOptions& options, const MixReport& mix,
-                  const DeformReport& deform, const Mesh& mesh) {
+void write_report(const DeformCommand& command, const ImageFrame& frame, const MeshImageOptions& options,
+                  const MixReport& mix, const DeformReport& deform, const Mesh& mesh) {
   const nlohmann::json json = {{"status", "ok"},
                                {"reason", ""},
                                {"version", CBC3D_VERSION},
-                               {"options", deformation_options_json(options)},
+                               {"options", options_json(options, deforming_options(command, frame),
+                                                        {OptionGroup::mixed, OptionGroup::deformation})},
                                {"counts", counts_json(mesh)},
                                {"mixed_elements", options.mixed ? mix_json(mix) : nlohmann::json()},
                                {"deformation", deformation_json(deform)},
                                {"peak_rss_bytes", process_peak_rss_bytes()}};
-  write_text_file(command.report_file, json.dump(2) + "\n");
+  write_text_file(command.common.report_file, json.dump(2) + "\n");
 }
 
 void run(const DeformCommand& command) {
-  set_thread_count(command.threads);
   require_writable_mesh_path(command.out);
-  if (!command.report_file.empty()) {
-    require_writable(command.report_file);
-  }
-  TerminalProgress progress(command.quiet);
+  TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.mesh, 0);
   const LabelImage image = read_label_image(command.image);
   const MeshImageOptions options = options_of(command, image);
@@ -75,8 +73,8 @@ void run(const DeformCommand& command) {
   progress.step("writing " + command.out, 0.95);
   const Mesh out = to_physical_mesh(mesh, image);
   write_mesh(out, command.out);
-  if (!command.report_file.empty()) {
-    write_report(command, options, mix, deform, out);
+  if (!command.common.report_file.empty()) {
+    write_report(command, image.frame, options, mix, deform, out);
   }
   progress.done();
   if (deform.stopped_early) {
@@ -99,20 +97,13 @@ void add_deform_command(CLI::App& app, int& exit_code) {
   deform->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
   deform
       ->add_option("--preset", command->preset,
-                   "quality: our best so far; paper: the published method [quality]")
+                   "quality: our best; paper: the published method [" + command->preset + "]")
       ->check(CLI::IsMember(preset_names()));
-  add_mixed_options(*deform, command->overrides);
-  add_deformation_options(*deform, command->overrides);
-  add_material_options(*deform, command->materials);
-  deform->add_option("--report", command->report_file,
-                     "JSON file with options, counts and per-iteration figures");
-  deform->add_option("--threads", command->threads, "threads of all pools [all cores]")
-      ->check(CLI::Range(0, 1024));
-  deform->add_flag("--quiet", command->quiet, "no progress");
-  deform->callback([command, &exit_code] {
-    run(*command);
-    exit_code = kExitSuccess;
-  });
+  for (const OptionGroup group : {OptionGroup::mixed, OptionGroup::deformation}) {
+    add_option_flags(*deform, group, preset_columns(true), command->settings);
+  }
+  add_report_option(*deform, command->common, "JSON file with options, counts and per-iteration figures");
+  complete_command(*deform, command->common, exit_code, [command] { run(*command); });
 }
 
 }  // namespace cbc3d

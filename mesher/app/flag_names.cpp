@@ -1,24 +1,38 @@
 #include "mesher/app/flag_names.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cctype>
-#include <string_view>
 #include <utility>
+#include <vector>
+
+#include "mesher/pipeline/option_table.hpp"
 
 namespace cbc3d {
 namespace {
 
-/// Phrases of several words are for names that are ordinary words too.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kFlags = {
-    {{"lattice_spacing_mm", "--lattice-spacing"},
-     {"max_distance_mm", "--max-distance"},
-     {"region_tolerance", "--region-tolerance"},
-     {"relabel_noise", "--relabel-noise"},
-     {"topology_checks", "--topology-checks"},
-     {"manifold_voxels off", "--no-manifold-voxels"},
-     {"on_failure", "--on-failure"},
-     {"connectivity vertex", "--connectivity vertex"},
-     {"edge_gradient and contrast", "--edge-gradient and --contrast"}}};
+using Replacement = std::pair<std::string, std::string>;
+
+/// What is no option's name: two ordinary words, a switch that is named by its effect, and options of
+/// `segment`.
+const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifold-voxels"},
+                                           {"connectivity vertex", "--connectivity vertex"},
+                                           {"edge_gradient and contrast", "--edge-gradient and --contrast"}};
+
+/// The fields of the options: their names with underscores, with a unit or without. Names of one word are
+/// left alone, for they are ordinary words too.
+std::vector<Replacement> replacements() {
+  std::vector<Replacement> all = kPhrases;
+  for (const OptionRow& row : option_table()) {
+    std::string field(row.name);
+    std::replace(field.begin(), field.end(), '-', '_');
+    if (field.find('_') != std::string::npos) {
+      for (const char* unit : {"", "_mm", "_deg"}) {
+        all.emplace_back(field + unit, "--" + std::string(row.name));
+      }
+    }
+  }
+  return all;
+}
 
 bool is_word_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '/' || c == '.' ||
@@ -34,7 +48,8 @@ bool is_word(const std::string& text, std::size_t begin, std::size_t length) {
 }  // namespace
 
 std::string with_flags(std::string text) {
-  for (const auto& [parameter, flag] : kFlags) {
+  static const std::vector<Replacement> kAll = replacements();
+  for (const auto& [parameter, flag] : kAll) {
     for (std::size_t at = text.find(parameter); at != std::string::npos; at = text.find(parameter, at)) {
       if (is_word(text, at, parameter.size())) {
         text.replace(at, parameter.size(), flag);

@@ -7,13 +7,16 @@
 #include <optional>
 
 #include "mesher/app/mesh_report.hpp"
+#include "mesher/app/option_flags.hpp"
+#include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
-#include "mesher/domain/mesh_boundary.hpp"
+#include "mesher/domain/image_domain.hpp"
+#include "mesher/domain/mesh_domain.hpp"
 #include "mesher/improve/improve_mesh.hpp"
 #include "mesher/topology/labelled_tets.hpp"
 #include "mesher/topology/orient_tets.hpp"
@@ -21,19 +24,19 @@
 namespace cbc3d {
 namespace {
 
-// Facets stay so many times nearer to the boundary than the surface's vertices to what they stand for.
-constexpr double kReachOfDeviation = 10;
+// The reach of the samples, as a multiple of how far facets may be from the boundary.
+constexpr double kReachPerDeviation = 10;
 
 struct ImproveCommand {
-  std::string mesh, image, out, report_file;
-  double min_dihedral_deg = 20;
+  std::string mesh, image, out;
+  MeshImageOptions defaults{.improve = {.enabled = true, .repair_rounds = 12, .untangle_rounds = 6}};
+  OptionSettings settings;
   double max_deviation_mm = 0;
   bool no_decimation = false;
-  int threads = 0;
-  bool quiet = false;
+  CommonOptions common;
 };
 
-/// A mesh under improvement and how it came.
+/// A mesh under improvement, and what it was before.
 struct Subject {
   MaterialMesh mesh;
   LabelImage image;  ///< an empty one with the mesh's labels where none was given
@@ -72,43 +75,42 @@ Subject read(const ImproveCommand& command) {
 }
 
 ImproveOptions options_of(const ImproveCommand& command) {
-  ImproveOptions options;
-  options.enabled = true;
-  options.min_dihedral_deg = command.min_dihedral_deg;
-  options.only_bad = command.no_decimation;
-  options.keep_distances = command.max_deviation_mm == 0;
-  options.repair_rounds = 12;
-  options.untangle_rounds = 6;
-  return options;
+  MeshImageOptions options = command.defaults;
+  apply_settings(command.settings, options);
+  options.improve.only_bad = command.no_decimation;
+  options.improve.keep_distances = command.max_deviation_mm == 0;
+  return options.improve;
 }
 
 void improve(const ImproveCommand& command, Subject& subject, const std::function<void(int)>& on_round) {
   ImproveOptions options = options_of(command);
   if (!command.image.empty()) {
     const double diagonal_mm = subject.image.frame.voxel_diagonal_mm();
-    options.reach_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.9 * diagonal_mm;
-    options.deviation_diagonals = options.reach_mm / diagonal_mm / kReachOfDeviation;
+    options.reach_mm =
+        command.max_deviation_mm > 0 ? command.max_deviation_mm : tolerances::kImproveReach * diagonal_mm;
+    options.deviation_diagonals = options.reach_mm / diagonal_mm / kReachPerDeviation;
     subject.max_deviation_mm = options.reach_mm;
-    subject.improve = improve_mesh(subject.mesh, subject.image, options, on_round);
+    subject.improve = improve_mesh(subject.mesh, ImageDomain(subject.image), options, on_round);
     return;
   }
-  const MeshBoundary boundary(subject.mesh);
-  const double edge_mm = boundary.mean_edge_mm();
+  const MeshDomain domain(subject.mesh, subject.image.labels);
+  const double edge_mm = domain.scale_mm();
   if (!(edge_mm > 0)) {
     throw InputError("'" + command.mesh +
                      "': the tets' surface is a single point; give a mesh with a volume");
   }
   subject.max_deviation_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.5 * edge_mm;
-  ImproveTarget target{boundary, boundary.points(), edge_mm};
-  target.deviation_mm = subject.max_deviation_mm / kReachOfDeviation;
-  target.reach_mm = subject.max_deviation_mm;
-  target.keep_distances = true;
-  target.hosts = boundary.hosts(subject.max_deviation_mm);
-  subject.improve = improve_mesh(subject.mesh, target, options, on_round);
+  options.deviation_mm = subject.max_deviation_mm / kReachPerDeviation;
+  options.reach_mm = subject.max_deviation_mm;
+  options.keep_distances = true;
+  options.may_relabel = false;
+  options.correct_volumes = false;
+  subject.improve = improve_mesh(subject.mesh, domain, options, on_round);
 }
 
 void warn(const ImproveCommand& command, Subject& subject) {
   auto& warnings = subject.warnings;
+  const double goal_deg = options_of(command).min_dihedral_deg;
   const auto count = [](std::size_t n) { return std::to_string(n); };
   if (subject.orient.degenerate > 0) {
     warnings.push_back(count(subject.orient.degenerate) + " tets had a node twice and were left out");
@@ -116,11 +118,11 @@ void warn(const ImproveCommand& command, Subject& subject) {
   if (subject.after.not_positive > 0) {
     warnings.push_back(count(subject.after.not_positive) + " of " + count(subject.before.not_positive) +
                        " flat or inverted tets could not be untangled; they are as they were or nearly so");
-  } else if (subject.after.min_dihedral_deg < command.min_dihedral_deg - 0.005) {
+  } else if (subject.after.min_dihedral_deg < goal_deg - 0.005) {
     warnings.push_back(
         text_of("the smallest dihedral angle is %.2f degrees, below the goal of %.4g; a larger "
                 "--max-deviation leaves more room",
-                subject.after.min_dihedral_deg, command.min_dihedral_deg));
+                subject.after.min_dihedral_deg, goal_deg));
   }
   for (std::size_t m = 1; command.image.empty() && m < subject.image.labels.size(); ++m) {
     const double change = 100 * (subject.after.volume_mm3[m] / subject.before.volume_mm3[m] - 1);
@@ -155,11 +157,11 @@ nlohmann::json report_json(const ImproveCommand& command, const Subject& subject
           {"reason", ""},
           {"version", CBC3D_VERSION},
           {"options",
-           {{"min_dihedral_deg", command.min_dihedral_deg},
+           {{"min_dihedral_deg", options_of(command).min_dihedral_deg},
             {"max_deviation_mm", subject.max_deviation_mm},
             {"decimation", !command.no_decimation},
             {"image", command.image},
-            {"threads", command.threads}}},
+            {"threads", command.common.threads}}},
           {"before", measures_json(subject.before)},
           {"after", measures_json(subject.after)},
           {"labels", labels},
@@ -169,13 +171,9 @@ nlohmann::json report_json(const ImproveCommand& command, const Subject& subject
           {"peak_rss_bytes", process_peak_rss_bytes()}};
 }
 
-void run(ImproveCommand command) {
-  command.threads = set_thread_count(command.threads);
+void run(const ImproveCommand& command) {
   require_writable_mesh_path(command.out);
-  if (!command.report_file.empty()) {
-    require_writable(command.report_file);
-  }
-  TerminalProgress progress(command.quiet);
+  TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.mesh, 0);
   Subject subject = read(command);
   const std::size_t materials = subject.image.labels.size();
@@ -190,8 +188,8 @@ void run(ImproveCommand command) {
   progress.step("writing " + command.out, 0.95);
   const Mesh out = to_physical_mesh(subject.mesh, subject.image);
   write_mesh(out, command.out);
-  if (!command.report_file.empty()) {
-    write_text_file(command.report_file, report_json(command, subject, seconds).dump(2) + "\n");
+  if (!command.common.report_file.empty()) {
+    write_text_file(command.common.report_file, report_json(command, subject, seconds).dump(2) + "\n");
   }
   progress.done();
   for (const std::string& warning : subject.warnings) {
@@ -213,28 +211,20 @@ void add_improve_command(CLI::App& app, int& exit_code) {
   improve->add_option("image", command->image,
                       "label image that the mesh was made from; without it the mesh keeps its own surfaces");
   improve->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
+  add_option_flag(*improve, find_option("min-dihedral"), {{"", command->defaults}}, command->settings);
   improve
-      ->add_option("--min-dihedral", command->min_dihedral_deg,
-                   "goal: no dihedral angle below this, none above 180 minus it, degrees [20]")
-      ->check(CLI::Range(0.1, 60.0));
-  improve
-      ->add_option(
-          "--max-deviation", command->max_deviation_mm,
-          "every boundary voxel (without image: surface vertex of the input) keeps a surface vertex so near, "
-          "facets stay within a tenth of it, mm [as the mesh has it, at most .9 voxel diagonals; "
-          "half the mean surface edge]")
+      ->add_option("--max-deviation", command->max_deviation_mm,
+                   "every boundary voxel, or without an image every surface vertex of the input, keeps a "
+                   "surface vertex "
+                   "within this distance, and facets stay within a tenth of it, mm [as the mesh has it, at "
+                   "most 0.9 voxel "
+                   "diagonals, or half the mean surface edge]")
+      ->type_name("MM")
       ->check(CLI::PositiveNumber);
   improve->add_flag("--no-decimation", command->no_decimation,
                     "repair what is below the goal and leave all else as it is");
-  improve->add_option("--report", command->report_file,
-                      "JSON file with counts, angles and volumes before and after");
-  improve->add_option("--threads", command->threads, "threads of all pools [all cores]")
-      ->check(CLI::Range(0, 1024));
-  improve->add_flag("--quiet", command->quiet, "no progress");
-  improve->callback([command, &exit_code] {
-    run(*command);
-    exit_code = kExitSuccess;
-  });
+  add_report_option(*improve, command->common, "JSON file with counts, angles and volumes before and after");
+  complete_command(*improve, command->common, exit_code, [command] { run(*command); });
 }
 
 }  // namespace cbc3d

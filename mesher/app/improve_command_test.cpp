@@ -1,22 +1,17 @@
 // `cbc3d improve` as its users meet it: what it takes, what it refuses, what it keeps.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <sstream>
 
+#include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/domain/mesh_boundary.hpp"
-#include "mesher/testing/run_command.hpp"
 #include "mesher/testing/test_images.hpp"
 #include "mesher/topology/cell_quality.hpp"
 #include "mesher/topology/labelled_tets.hpp"
@@ -78,32 +73,18 @@ Mesh shaken_block(int n, double shake) {
   return mesh;
 }
 
-class ImproveCommand : public ::testing::Test {
+class ImproveCommand : public testing::CommandTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("cbc3d-improve-" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
+  void expect_refusal(const std::string& arguments, const std::string& text) const {
+    CommandTest::expect_refusal("improve " + arguments + " --out " + at("out.vtu"), text, "out.vtu");
   }
-  void TearDown() override { fs::remove_all(folder_); }
-  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
-  /// Expects exit 2, one line on the fault and no output file.
-  void expect_refusal(const std::string& arguments, const std::string& says) const {
-    const Outcome outcome = run(arguments + " --quiet --out " + at("out.vtu"));
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
-    EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
-    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
-    EXPECT_FALSE(fs::exists(folder_ / "out.vtu"));
-  }
-
-  fs::path folder_;
 };
 
 TEST_F(ImproveCommand, RefusesInOneLineWhatItCannotTake) {
   Mesh mesh = shaken_block(2, 0);
   write_mesh(mesh, at("good.vtu"));
   expect_refusal(at("none.vtu"), "does not exist");
-  expect_refusal(at("good.vtu") + " --min-dihedral 80", "min-dihedral");
+  expect_refusal(at("good.vtu") + " --min-dihedral 80", "--min-dihedral 80: give a number in [0, 60]");
   expect_refusal(at("good.vtu") + " --max-deviation -1", "max-deviation");
   expect_refusal(at("good.vtu") + " " + at("none.nii.gz"), "none.nii.gz");
   mesh.pyramids.add({0, 1, 4, 3, 9}, 1);
@@ -200,33 +181,6 @@ TEST_F(ImproveCommand, SaysWhatCannotBeUntangled) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("warning"), std::string::npos) << outcome.text;
   EXPECT_TRUE(fs::exists(folder_ / "out.vtu"));
-}
-
-TEST(MeshBoundary, IsTheNearestPlaceOnTheFacetsSignedTowardsTheFirstMaterial) {
-  std::vector<Label> labels;
-  MaterialMesh mesh = number_labels(shaken_block(8, 0.2), labels);
-  orient_tets(mesh);
-  const MeshBoundary boundary(mesh);
-  // Label -7 is material 1, in [2, 6]^3; the outside is material 0.
-  std::mt19937 random(3);
-  for (int i = 0; i < 2000; ++i) {
-    Vec3 x;
-    for (int axis = 0; axis < 3; ++axis) {
-      x[axis] = 1 + 6 * (random() / 4294967296.0);
-    }
-    Vec3 out;  // from the inner block
-    for (int axis = 0; axis < 3; ++axis) {
-      out[axis] = std::max({2 - x[axis], 0.0, x[axis] - 6});
-    }
-    const double depth = std::min((x - Vec3{2, 2, 2}).min_coeff(), (Vec3{6, 6, 6} - x).min_coeff());
-    const BoundarySample sample = boundary.sample(x, 1, 2);
-    EXPECT_NEAR(sample.deviation_mm, depth > 0 ? depth : out.norm(), 1e-9);
-    if (std::fabs(depth) > 1e-6) {
-      EXPECT_EQ(sample.distance_mm > 0, depth > 0);
-    }
-    EXPECT_EQ(boundary.sample(x, 2, 1).distance_mm, -sample.distance_mm);
-  }
-  EXPECT_TRUE(std::isinf(boundary.sample({4, 4, 4}, 1, 0).deviation_mm));
 }
 
 }  // namespace

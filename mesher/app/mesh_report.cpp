@@ -1,38 +1,21 @@
 #include "mesher/app/mesh_report.hpp"
 
-#include "mesher/app/option_overrides.hpp"
+#include "mesher/app/option_json.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
 namespace {
 
-nlohmann::json options_json(const RunDescription& run, const MeshImageReport& report) {
-  const MeshImageOptions& o = run.options;
-  nlohmann::json material = nlohmann::json::object();
-  for (const auto& [label, f] : o.refine.material_fidelity) {
-    material[std::to_string(label)] = f;
-  }
-  nlohmann::json options = {{"preset", run.preset},
-                            {"relabel_noise", name_of(kNoisyVoxelNames, o.clean.relabel_noise)},
-                            {"region_tolerance", o.clean.region_tolerance},
-                            {"manifold_voxels", o.clean.manifold_voxels},
-                            {"lattice_spacing_mm", report.lattice_spacing_mm},
-                            {"topology_checks", o.topology.enabled},
-                            {"fidelity", o.refine.fidelity},
-                            {"material_fidelity", material},
-                            {"max_distance_mm", o.refine.max_distance_mm},
-                            {"finest_spacing_mm", report.finest_spacing_mm},
-                            {"seed", o.clean.seed},
-                            {"threads", run.threads}};
-  options.update(deformation_options_json(o));
-  if (o.improve.enabled) {
-    options["min_dihedral_deg"] = o.improve.min_dihedral_deg;
-    options["decimation_rounds"] = o.improve.decimation_rounds;
-    options["deviation_diagonals"] = o.improve.deviation_diagonals;
-    options["smoothness"] = o.improve.smoothness;
-    options["smoothness_cap_mm"] = o.improve.smoothness_cap_mm;
-    options["gradation"] = o.improve.gradation >= 0 ? nlohmann::json(o.improve.gradation) : nlohmann::json();
-  }
+/// The options used; the lattice's spacings are those in force.
+nlohmann::json used_options_json(const RunDescription& run, const MeshImageReport& report) {
+  nlohmann::json options = options_json(run.options, preset_options(run.preset, run.frame, run.options.mixed),
+                                        {OptionGroup::cleaning, OptionGroup::lattice, OptionGroup::mixed,
+                                         OptionGroup::improvement, OptionGroup::deformation});
+  options["preset"] = run.preset;
+  options["threads"] = run.threads;
+  options["lattice_spacing_mm"] = report.lattice_spacing_mm;
+  options["finest_spacing_mm"] = report.finest_spacing_mm;
   return options;
 }
 
@@ -78,29 +61,6 @@ nlohmann::json mix_json(const MixReport& mix) {
           {"tets_merged", mix.tets_merged},
           {"vertices_before", mix.vertices_before},
           {"vertices_after", mix.vertices_after}};
-}
-
-nlohmann::json deformation_options_json(const MeshImageOptions& options) {
-  const DeformOptions& o = options.deform;
-  nlohmann::json materials = nlohmann::json::object();
-  for (const auto& [label, e] : o.elasticity.by_label) {
-    materials[std::to_string(label)] = {{"young_pa", e.young_pa}, {"poisson", e.poisson}};
-  }
-  return {{"mixed", options.mixed},
-          {"iterations", o.iterations},
-          {"connectivity", name_of(kConnectivityNames, o.connectivity)},
-          {"target_position", name_of(kTargetPositionNames, o.displacement.target_position)},
-          {"displacement", name_of(kDisplacementNames, o.displacement.along_normal)},
-          {"reject_outliers", o.displacement.reject_outliers},
-          {"reach", o.displacement.reach},
-          {"pair_distance", o.displacement.pair_distance},
-          {"on_failure", name_of(kOnFailureNames, o.on_failure)},
-          {"attempts", o.attempts},
-          {"young_pa", o.elasticity.all.young_pa},
-          {"poisson", o.elasticity.all.poisson},
-          {"material_elasticity", materials},
-          {"min_dihedral_deg", o.quality.min_dihedral_deg},
-          {"min_scaled_jacobian", o.quality.min_scaled_jacobian}};
 }
 
 std::string counts_text(const Mesh& mesh) {
@@ -155,10 +115,10 @@ nlohmann::json improvement_json(const ImproveReport& improve, bool was_stricter)
           {"tets_after", improve.tets_after},
           {"min_dihedral_before_deg", improve.min_dihedral_before_deg},
           {"min_dihedral_after_deg", improve.min_dihedral_after_deg},
-          {"boundary_points", improve.boundary_points},
-          {"uncovered_points", improve.uncovered_points},
-          {"crossings_left", improve.crossings_left},
-          {"surface_faults_left", improve.faults_left},
+          {"boundary_samples", improve.boundary_samples},
+          {"uncovered_samples", improve.uncovered_samples},
+          {"self_intersections_left", improve.self_intersections_left},
+          {"surface_defects_left", improve.surface_defects_left},
           {"done_again_stricter", was_stricter},
           {"seconds", parts}};
 }
@@ -194,7 +154,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
   return {{"status", "ok"},
           {"reason", ""},
           {"version", CBC3D_VERSION},
-          {"options", options_json(run, report)},
+          {"options", used_options_json(run, report)},
           {"counts", counts_json(mesh)},
           {"cleaning", cleaning_json(report.clean, run.frame)},
           {"refinement",

@@ -11,19 +11,17 @@ namespace cbc3d {
 struct RunDescription {
   std::string preset;
   int threads = 0;           ///< in force
-  MeshImageOptions options;  ///< preset and overrides together
+  MeshImageOptions options;  ///< the preset's, with the user's settings in place of its own
   ImageFrame frame;          ///< of the image
   double reading_seconds = 0;
   double writing_seconds = 0;
 };
 
-/// What a cleaning changed: counts, and per label the voxels before and after and the change of volume.
+/// What the cleaning changed: counts, and for each label the voxels before and after and the change of
+/// volume.
 nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame);
 
-/// Options of the mixed elements and the deformation.
-nlohmann::json deformation_options_json(const MeshImageOptions& options);
-
-/// Points, parts' seconds and per-iteration figures of a deformation.
+/// Points, seconds by part and figures of each iteration of a deformation.
 nlohmann::json deformation_json(const DeformReport& deform);
 
 /// Hexes and pyramids made, vertices before and after.
@@ -32,7 +30,7 @@ nlohmann::json mix_json(const MixReport& mix);
 /// Vertices and cells by kind.
 nlohmann::json counts_json(const Mesh& mesh);
 
-/// "812 vertices, 3900 tets, 12 hexes": kinds that there are none of are left out, tets excepted.
+/// "812 vertices, 3900 tets, 12 hexes": kinds without cells are left out, except tets.
 std::string counts_text(const Mesh& mesh);
 
 /// Options used, counts, per-material F1 and F2, per-iteration deformation figures, seconds per stage, peak

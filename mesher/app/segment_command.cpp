@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
@@ -17,8 +18,8 @@ struct SegmentCommand {
   std::vector<std::string> seeds, targets;
   SegmentOptions options;
   Label label = 1;
-  int threads = 0;
-  bool overwrite = false, quiet = false;
+  bool overwrite = false;
+  CommonOptions common;
 };
 
 Vec3 position(const std::string& text, const char* option) {
@@ -48,7 +49,7 @@ void require_same_frame(const ImageFrame& frame, const ImageFrame& other, const 
   }
 }
 
-/// Puts the segmented voxels into `labels` as `label`: where it is background, or anywhere.
+/// Puts the segmented voxels into `labels` as `label`, where it is background or, with `overwrite`, anywhere.
 void merge_into(LabelImage& labels, const LabelImage& segmented, Label label, bool overwrite) {
   const auto known = std::find(labels.labels.begin(), labels.labels.end(), label);
   const auto material = static_cast<MaterialId>(known - labels.labels.begin());
@@ -63,7 +64,6 @@ void merge_into(LabelImage& labels, const LabelImage& segmented, Label label, bo
 }
 
 void run(SegmentCommand command) {
-  set_thread_count(command.threads);
   require_writable(command.out);
   if (command.label == 0) {
     throw InputError("--label 0 is the background; give another number");
@@ -71,7 +71,7 @@ void run(SegmentCommand command) {
   command.options.seeds_mm = positions(command.seeds, "--seeds");
   command.options.targets_mm = positions(command.targets, "--targets");
   command.options.stop = command.stop == "all" ? FrontStop::all_targets : FrontStop::first_target;
-  TerminalProgress progress(command.quiet);
+  TerminalProgress progress(command.common.quiet);
   SegmentReport report;
   LabelImage segmented = segment_image(command.image, command.options, progress, report);
   progress.step("writing " + command.out, 0.9);
@@ -132,13 +132,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   segment->add_flag("--overwrite", command->overwrite,
                     "with --merge: also where that image has a label [only its background]");
   add_tuning(*segment, command->options);
-  segment->add_option("--threads", command->threads, "threads of all pools [all cores]")
-      ->check(CLI::Range(0, 1024));
-  segment->add_flag("--quiet", command->quiet, "no progress");
-  segment->callback([command, &exit_code] {
-    run(*command);
-    exit_code = kExitSuccess;
-  });
+  complete_command(*segment, command->common, exit_code, [command] { run(*command); });
 }
 
 }  // namespace cbc3d

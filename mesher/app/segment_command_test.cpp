@@ -35,7 +35,7 @@ TEST(SegmentCommand, MergesStructures) {
   };
   ASSERT_EQ(command(left, "--label 7"), 0);
   ASSERT_EQ(command(right, "--label -3 --merge " + folder.file("labels.nii.gz").string()), 0);
-  const LabelImage both = read_label_imagefolder.file("labels.nii.gz");
+  const LabelImage both = read_label_image(folder.file("labels.nii.gz"));
   EXPECT_EQ(both.labels, (std::vector<Label>{0, -3, 7}));
   EXPECT_EQ(both.labels[both.at_local(left.middle(30))], 7);
   EXPECT_EQ(both.labels[both.at_local(right.middle(30))], -3);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <sstream>
 
+#include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/terminal_progress.hpp"
@@ -24,8 +25,7 @@ struct TileCommand {
   std::vector<std::string> slices;
   std::string out;
   std::vector<double> spacing_mm, origin_mm{0, 0, 0};
-  int threads = 0;
-  bool quiet = false;
+  CommonOptions common;
 };
 
 /// One slice: grey values in the file's own type.
@@ -55,7 +55,7 @@ itk::ImageIOBase::Pointer reader_of(const std::string& file) {
   fail(file, "not a PNG, BMP or TIFF image; convert it to one");
 }
 
-/// Colour slices whose channels are all the same are grey ones; others are refused.
+/// Takes a colour slice whose channels are all the same as a grey one, and refuses others.
 void keep_first_channel(Slice& slice, std::size_t channels, const std::string& file) {
   const std::size_t count = slice.width * slice.height, bytes = slice.bytes_per_value;
   const std::size_t colours = std::min<std::size_t>(channels, 3);
@@ -127,7 +127,7 @@ std::string triple(const std::vector<double>& v, const char* separator) {
   return text.str();
 }
 
-/// Both headers say: uncompressed values follow, first axis fastest, lowest byte first.
+/// In both formats uncompressed values follow, first axis fastest, lowest byte first.
 std::string header(const TileCommand& command, const Slice& first) {
   const TypeNames& names = names_of(first.component, command.slices.front());
   const std::vector<double>& s = command.spacing_mm;
@@ -173,10 +173,10 @@ void require_good(const TileCommand& command) {
   }
 }
 
-/// Holds one slice at a time.
+/// Holds one slice in memory at a time.
 void run(const TileCommand& command) {
   require_good(command);
-  TerminalProgress progress(command.quiet);
+  TerminalProgress progress(command.common.quiet);
   Slice first;
   AtomicFile file(command.out);
   std::ofstream out(file.temporary(), std::ios::binary);
@@ -216,12 +216,7 @@ void add_tile_command(CLI::App& app, int& exit_code) {
   tile->add_option("--origin", command->origin_mm, "X,Y,Z: centre of the first voxel, LPS mm [0,0,0]")
       ->delimiter(',')
       ->expected(3);
-  tile->add_option("--threads", command->threads, "threads (tiling needs one)")->check(CLI::Range(0, 1024));
-  tile->add_flag("--quiet", command->quiet, "no progress");
-  tile->callback([command, &exit_code] {
-    run(*command);
-    exit_code = kExitSuccess;
-  });
+  complete_command(*tile, command->common, exit_code, [command] { run(*command); });
 }
 
 }  // namespace cbc3d

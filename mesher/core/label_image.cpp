@@ -49,11 +49,11 @@ std::vector<std::size_t> LabelImage::voxels_per_material() const {
   return total;
 }
 
-std::vector<double> values_of_materials(const LabelImage& image, const std::map<Label, double>& of_label,
-                                        double otherwise) {
-  std::vector<double> values(image.material_count(), otherwise);
+std::vector<double> values_of_materials(const std::vector<Label>& labels,
+                                        const std::map<Label, double>& of_label, double otherwise) {
+  std::vector<double> values(labels.size(), otherwise);
   for (std::size_t m = 1; m < values.size(); ++m) {
-    const auto own = of_label.find(image.labels[m]);
+    const auto own = of_label.find(labels[m]);
     values[m] = own != of_label.end() ? own->second : otherwise;
   }
   return values;

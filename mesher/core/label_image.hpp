@@ -73,9 +73,9 @@ struct LabelImage {
   [[nodiscard]] std::vector<std::size_t> voxels_per_material() const;
 };
 
-/// The value of every material's label, `otherwise` where the label has none.
-std::vector<double> values_of_materials(const LabelImage& image, const std::map<Label, double>& of_label,
-                                        double otherwise);
+/// The value of every material's label, `otherwise` where the label has none. `labels` as in LabelImage.
+std::vector<double> values_of_materials(const std::vector<Label>& labels,
+                                        const std::map<Label, double>& of_label, double otherwise);
 
 /// True when a voxel has a face neighbour of another material; the outside of the image counts as background.
 /// This is the paper's boundary voxel (its signed distance map is zero there).

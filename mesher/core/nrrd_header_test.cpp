@@ -17,7 +17,7 @@ TEST(NrrdHeader, SaysWhereVoxelsBeginOrNothing) {
   };
   const std::string bytes = "NRRD0004\ntype: uchar\nencoding: gzip\n\n";
   EXPECT_EQ(offset(bytes, 1), bytes.size());
-  EXPECT_EQ(offset("NRRD0004\n# a comment\nencoding: gz\n\n", 1), 36U);
+  EXPECT_EQ(offset("NRRD0004\n# a comment\nencoding: gz\n\n", 1), 35U);
   EXPECT_EQ(offset("NRRD0004\nencoding: raw\n\n", 1), 0U);  // another encoding
   EXPECT_EQ(offset("NRRD0004\nencoding: gzipped\n\n", 1), 0U);
   EXPECT_EQ(offset("NRRD0004\n\n", 1), 0U);  // none

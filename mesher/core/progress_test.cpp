@@ -4,6 +4,7 @@
 
 #include <vector>
 
+
 namespace cbc3d {
 namespace {
 

@@ -129,7 +129,7 @@ class Deformer {
   const LabelImage& image_;
   const DeformOptions& options_;
   VertexCells around_;
-  LabelSets sets_;
+  MaterialSets sets_;
   SourcePoints sources_;
   TargetPoints targets_;
   std::vector<Vec3> displacement_;  // U

@@ -11,32 +11,15 @@
 
 namespace cbc3d {
 
-void LabelSet::insert(MaterialId material) {
-  const auto end = materials_.begin() + count_;
-  const auto place = std::lower_bound(materials_.begin(), end, material);
-  if (place == materials_.end() || (place != end && *place == material)) {
-    return;
-  }
-  const bool full = count_ == kMost;
-  std::copy_backward(place, full ? end - 1 : end, full ? end : end + 1);
-  *place = material;
-  count_ += full ? 0 : 1;
-}
-
-bool LabelSet::is_within(const LabelSet& other) const {
-  return std::includes(other.materials_.begin(), other.materials_.begin() + other.count_, materials_.begin(),
-                       materials_.begin() + count_);
-}
-
-std::size_t LabelSets::Hash::operator()(const LabelSet& set) const {
-  std::uint64_t hash = set.size();
-  for (std::size_t i = 0; i < set.size(); ++i) {
+std::size_t MaterialSets::Hash::operator()(const MaterialSet& set) const {
+  std::uint64_t hash = set.size;
+  for (std::size_t i = 0; i < set.size; ++i) {
     hash = (hash ^ set[i]) * 0x9E3779B97F4A7C15U;
   }
   return hash ^ (hash >> 32U);
 }
 
-std::uint32_t LabelSets::number_of(const LabelSet& set) {
+std::uint32_t MaterialSets::number_of(const MaterialSet& set) {
   const auto [place, is_new] = numbers_.try_emplace(set, static_cast<std::uint32_t>(sets_.size()));
   if (is_new) {
     sets_.push_back(set);
@@ -224,16 +207,16 @@ bool only_two_around(const Voxel* at, std::ptrdiff_t row, std::ptrdiff_t slice, 
   return !third;
 }
 
-LabelSet materials_around(const LabelImage& image, int i, int j, int k) {
-  LabelSet set;
+MaterialSet materials_around(const LabelImage& image, int i, int j, int k) {
+  MaterialSet set;
   MaterialId last = image.at(i, j, k);
-  set.insert(last);
+  set.add(last);
   for (int dk = -1; dk <= 1; ++dk) {
     for (int dj = -1; dj <= 1; ++dj) {
       for (int di = -1; di <= 1; ++di) {
         const MaterialId material = image.at_or_background(i + di, j + dj, k + dk);
         if (material != last) {  // mostly there are runs of the same
-          set.insert(material);
+          set.add(material);
           last = material;
         }
       }
@@ -242,11 +225,11 @@ LabelSet materials_around(const LabelImage& image, int i, int j, int k) {
   return set;
 }
 
-/// The label sets of targets before they are numbered: nearly all are of two materials.
+/// The material sets of targets before they are numbered: nearly all are of two materials.
 struct SetsFound {
   static constexpr std::uint32_t kMore = ~0U;
-  std::vector<std::uint32_t> pairs;         // by target: the lower material above the higher; or kMore
-  std::vector<std::vector<LabelSet>> more;  // by slice, the sets of those of more than two
+  std::vector<std::uint32_t> pairs;            // by target: the lower material above the higher; or kMore
+  std::vector<std::vector<MaterialSet>> more;  // by slice, the sets of those of more than two
 };
 
 std::uint32_t pair_of(MaterialId a, MaterialId b) {
@@ -286,7 +269,7 @@ SetsFound find_targets(const LabelImage& image, const BoundaryVoxels& voxels, Ta
         const std::size_t t = points.first[r] + n;
         found.pairs[t] = find_target(image, i, j, k, points.targets[t]);
         if (found.pairs[t] == SetsFound::kMore) {
-          const LabelSet set = materials_around(image, i, j, k);
+          const MaterialSet set = materials_around(image, i, j, k);
           points.targets[t].lower_side = image.at(i, j, k) == set[0] ? 1U : 0U;
           found.more[static_cast<std::size_t>(k)].push_back(set);
         }
@@ -296,8 +279,8 @@ SetsFound find_targets(const LabelImage& image, const BoundaryVoxels& voxels, Ta
   return found;
 }
 
-/// LabelSets::number_of, of a target.
-std::uint32_t number_of_set(LabelSets& sets, const LabelSet& set) {
+/// MaterialSets::number_of, of a target.
+std::uint32_t number_of_set(MaterialSets& sets, const MaterialSet& set) {
   const std::uint32_t number = sets.number_of(set);
   if (number >= TargetPoint::kMostSets) {
     throw JobError("more than " + std::to_string(TargetPoint::kMostSets) +
@@ -307,10 +290,10 @@ std::uint32_t number_of_set(LabelSets& sets, const LabelSet& set) {
 }
 
 /// In the order of the targets, so that the numbers are the same at any thread count.
-void number_sets(const SetsFound& found, LabelSets& sets, std::vector<TargetPoint>& targets) {
+void number_sets(const SetsFound& found, MaterialSets& sets, std::vector<TargetPoint>& targets) {
   std::size_t slice = 0;
   std::size_t in_slice = 0;
-  const auto next_of_more = [&]() -> const LabelSet& {
+  const auto next_of_more = [&]() -> const MaterialSet& {
     while (in_slice == found.more[slice].size()) {
       ++slice;
       in_slice = 0;
@@ -326,9 +309,9 @@ void number_sets(const SetsFound& found, LabelSets& sets, std::vector<TargetPoin
       continue;
     }
     if (pair != last_pair) {
-      LabelSet set;
-      set.insert(static_cast<MaterialId>(pair >> 16U));
-      set.insert(static_cast<MaterialId>(pair & 0xFFFFU));
+      MaterialSet set;
+      set.add(static_cast<MaterialId>(pair >> 16U));
+      set.add(static_cast<MaterialId>(pair & 0xFFFFU));
       last_number = number_of_set(sets, set);
       last_pair = pair;
     }
@@ -338,24 +321,24 @@ void number_sets(const SetsFound& found, LabelSets& sets, std::vector<TargetPoin
 
 }  // namespace
 
-SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& around, LabelSets& sets) {
+SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& around, MaterialSets& sets) {
   SourcePoints points;
   points.interface = interface_facets(mesh, around);
   gather_facets(number_sources(points.interface, mesh.points.size(), points.sources), points);
   for (std::size_t s = 0; s < points.sources.size(); ++s) {
     // Every material of a star has a facet at its vertex, unless it is the only one there.
-    LabelSet set;
+    MaterialSet set;
     for (std::uint32_t f = points.first[s]; f < points.first[s + 1]; ++f) {
-      set.insert(points.interface[points.facets[f]].lower);
-      set.insert(points.interface[points.facets[f]].higher);
+      set.add(points.interface[points.facets[f]].lower);
+      set.add(points.interface[points.facets[f]].higher);
     }
     points.sources[s].set = sets.number_of(set);
-    points.sources[s].two_sided = set.size() == 2;
+    points.sources[s].two_sided = set.size == 2;
   }
   return points;
 }
 
-TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, LabelSets& sets) {
+TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, MaterialSets& sets) {
   BoundaryVoxels voxels = boundary_voxels(image);
   thin(voxels, image.frame, connectivity);
   TargetPoints points;

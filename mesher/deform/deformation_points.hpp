@@ -2,7 +2,7 @@
 //
 // Notation: s  source: a vertex on the mesh surface or on an interface;
 //           t  target: a boundary voxel of the image;
-//           label set: the materials that meet at a point, background included; points with equal sets
+//           material set: the materials that meet at a point, background included; points with equal sets
 //           correspond.
 #pragma once
 
@@ -12,42 +12,25 @@
 #include <vector>
 
 #include "mesher/topology/interface_facets.hpp"
+#include "mesher/topology/material_set.hpp"
 
 namespace cbc3d {
 
 /// Which neighbours of an accepted target voxel are barred from becoming targets.
 enum class Connectivity { vertex, edge, face, no };
 
-/// The distinct materials that meet at a point, ascending. Of more than kMost the lowest are kept; a set is
-/// full of those from then on, so that such points still correspond to each other.
-class LabelSet {
+/// Numbers material sets, so that equality is one comparison.
+class MaterialSets {
  public:
-  static constexpr std::size_t kMost = 8;
-
-  void insert(MaterialId material);
-  [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] MaterialId operator[](std::size_t i) const { return materials_[i]; }
-  /// True when every material of this set is in the other.
-  [[nodiscard]] bool is_within(const LabelSet& other) const;
-  bool operator==(const LabelSet&) const = default;
-
- private:
-  std::array<MaterialId, kMost> materials_{};
-  std::uint8_t count_ = 0;
-};
-
-/// Numbers label sets, so that equality is one comparison.
-class LabelSets {
- public:
-  std::uint32_t number_of(const LabelSet& set);
-  [[nodiscard]] const LabelSet& operator[](std::uint32_t number) const { return sets_[number]; }
+  std::uint32_t number_of(const MaterialSet& set);
+  [[nodiscard]] const MaterialSet& operator[](std::uint32_t number) const { return sets_[number]; }
 
  private:
   struct Hash {
-    std::size_t operator()(const LabelSet& set) const;
+    std::size_t operator()(const MaterialSet& set) const;
   };
-  std::unordered_map<LabelSet, std::uint32_t, Hash> numbers_;
-  std::vector<LabelSet> sets_;
+  std::unordered_map<MaterialSet, std::uint32_t, Hash> numbers_;
+  std::vector<MaterialSet> sets_;
 };
 
 struct SourcePoint {
@@ -64,7 +47,7 @@ struct SourcePoints {
   std::vector<std::uint32_t> facets;
 };
 
-SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& around, LabelSets& sets);
+SourcePoints extract_source_points(const MaterialMesh& mesh, const VertexCells& around, MaterialSets& sets);
 
 /// Eight bytes: the search for displacements reads hundreds for every source.
 struct TargetPoint {
@@ -87,6 +70,6 @@ struct TargetPoints {
 /// accepted voxel bars its 26 (vertex), 18 (edge) or 6 (face) neighbours; "no" accepts all. A boundary voxel
 /// has a face neighbour of another material; its set are the materials in its 26-neighbourhood. Same result
 /// at any thread count.
-TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, LabelSets& sets);
+TargetPoints extract_target_points(const LabelImage& image, Connectivity connectivity, MaterialSets& sets);
 
 }  // namespace cbc3d

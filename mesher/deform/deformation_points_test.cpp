@@ -46,7 +46,7 @@ TEST(TargetPoints, FollowTheRuleAtAnyThreadCount) {
          {Connectivity::vertex, Connectivity::edge, Connectivity::face, Connectivity::no}) {
       for (const int threads : {1, 2}) {
         omp_set_num_threads(threads);
-        LabelSets sets;
+        MaterialSets sets;
         EXPECT_EQ(extract_target_points(image, c, sets).targets.size(), count_by_rule(image, c));
       }
     }
@@ -56,36 +56,13 @@ TEST(TargetPoints, FollowTheRuleAtAnyThreadCount) {
 TEST(TargetPoints, OfASolidBlock) {
   // A face of 4x4 voxels of an 8x4x4 block at the image's border: the shell has 8*4*4 - 6*2*2 voxels.
   const LabelImage image = testing::make_image({8, 4, 4}, {1, 1, 1}, 1, [](const Vec3&) { return 1; });
-  LabelSets sets;
+  MaterialSets sets;
   const TargetPoints points = extract_target_points(image, Connectivity::no, sets);
   EXPECT_EQ(points.targets.size(), 8U * 16 - 6 * 4);
   for (const TargetPoint& t : points.targets) {
-    EXPECT_EQ(sets[t.set].size(), 2U);
+    EXPECT_EQ(sets[t.set].size, 2U);
     EXPECT_FALSE(t.lower_side) << "the outside is the lower material";
   }
-}
-
-TEST(LabelSet, IsOrderedAndKeepsTheLowest) {
-  LabelSet set;
-  for (const MaterialId m : {7, 3, 7, 9, 1}) {
-    set.insert(m);
-  }
-  ASSERT_EQ(set.size(), 4U);
-  EXPECT_EQ(set[0], 1);
-  EXPECT_EQ(set[3], 9);
-  LabelSet pair;
-  pair.insert(9);
-  pair.insert(3);
-  EXPECT_TRUE(pair.is_within(set));
-  EXPECT_FALSE(set.is_within(pair));
-  LabelSet down;
-  LabelSet up;
-  for (MaterialId m = 0; m < 12; ++m) {
-    up.insert(m);
-    down.insert(static_cast<MaterialId>(11 - m));
-  }
-  EXPECT_EQ(up.size(), LabelSet::kMost);
-  EXPECT_EQ(up, down);
 }
 
 TEST(SourcePoints, KnowTheMaterialsThatMeet) {
@@ -95,7 +72,7 @@ TEST(SourcePoints, KnowTheMaterialsThatMeet) {
   });
   const MaterialMesh mesh = paper_mesh(image, {.spacing_mm = 5});
   const VertexCells around = cells_of_vertices(mesh);
-  LabelSets sets;
+  MaterialSets sets;
   const SourcePoints points = extract_source_points(mesh, around, sets);
   std::set<std::size_t> sizes;
   for (const SourcePoint& s : points.sources) {
@@ -103,13 +80,13 @@ TEST(SourcePoints, KnowTheMaterialsThatMeet) {
     for (const CellId c : around.of(s.vertex)) {
       materials.insert(mesh.material_of(c));
     }
-    const LabelSet& set = sets[s.set];
-    sizes.insert(set.size());
-    EXPECT_EQ(s.two_sided, set.size() == 2);
-    for (std::size_t i = 0; i < set.size(); ++i) {
+    const MaterialSet& set = sets[s.set];
+    sizes.insert(set.size);
+    EXPECT_EQ(s.two_sided, set.size == 2);
+    for (std::size_t i = 0; i < set.size; ++i) {
       EXPECT_TRUE(set[i] == kBackground || materials.count(set[i]) == 1);
     }
-    EXPECT_EQ(set.size() - (set[0] == kBackground ? 1 : 0), materials.size());
+    EXPECT_EQ(set.size - (set[0] == kBackground ? 1 : 0), materials.size());
   }
   EXPECT_EQ(sizes, (std::set<std::size_t>{2, 3})) << "faces, and the rim where both labels meet the outside";
 }

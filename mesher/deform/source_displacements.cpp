@@ -201,20 +201,19 @@ class Search {
     return total > 0;
   }
 
-  /// How far a target's label set is from a source's: 0 equal, 1 one within the other, 2 both of two with one
-  /// in common.
+  /// How far a target's material set is from a source's: 0 equal, 1 one within the other, 2 both of two with
+  /// one in common.
   [[nodiscard]] int mismatch(const SourcePoint& source, const TargetPoint& target) const {
     if (source.set == target.set) {
       return 0;
     }
-    const LabelSet& s = points_.sets[source.set];
-    const LabelSet& t = points_.sets[target.set];
+    const MaterialSet& s = points_.sets[source.set];
+    const MaterialSet& t = points_.sets[target.set];
     if (s.is_within(t) || t.is_within(s)) {
       return 1;
     }
-    return s.size() == 2 && t.size() == 2 && (s[0] == t[0] || s[0] == t[1] || s[1] == t[0] || s[1] == t[1])
-               ? 2
-               : 3;
+    return s.size == 2 && t.size == 2 && (s[0] == t[0] || s[0] == t[1] || s[1] == t[0] || s[1] == t[1]) ? 2
+                                                                                                        : 3;
   }
 
   /// For sources without a target in their region: the nearest beyond, of the best matching sets.

@@ -29,7 +29,7 @@ struct DisplacementOptions {
 struct Correspondence {
   const SourcePoints& sources;
   const TargetPoints& targets;
-  const LabelSets& sets;
+  const MaterialSets& sets;
   const ImageFrame& frame;
 };
 
@@ -38,10 +38,10 @@ struct SourceDisplacement {
   bool matched = false;
 };
 
-/// For each source the mean of the vectors to the targets of its label set in the ball round it whose radius
-/// is the mean length of its surface edges; zero with `matched` 0 where there is none. Sources whose set no
-/// target has use the nearest of those sets that are nearest to theirs. Parallel; the same result at any
-/// thread count. What is the same at all positions is made ready once.
+/// For each source the mean of the vectors to the targets of its material set in the ball round it whose
+/// radius is the mean length of its surface edges; zero with `matched` 0 where there is none. Sources whose
+/// set no target has use the nearest of those sets that are nearest to theirs. Parallel; the same result at
+/// any thread count. What is the same at all positions is made ready once.
 class SourceDisplacements {
  public:
   /// What `points` refers to must outlive this.

@@ -27,7 +27,7 @@ struct Prepared {
   }
   const LabelImage& image;
   MaterialMesh mesh;
-  LabelSets sets;
+  MaterialSets sets;
   SourcePoints sources;
   TargetPoints targets;
 };

@@ -16,7 +16,7 @@ namespace {
 TEST(TargetRows, FindsThoseInTheBallThatAreAskedFor) {
   LabelImage image = testing::noise_image(24, 0.3, 7);
   image.frame.spacing_mm = {0.7, 1.1, 1.9};
-  LabelSets sets;
+  MaterialSets sets;
   const TargetPoints targets = extract_target_points(image, Connectivity::no, sets);
   const TargetRows rows(targets, image.frame);
   std::vector<Vec3> centres;

@@ -23,7 +23,8 @@ inline MaterialMesh paper_mesh_of_cleaned(LabelImage& image, const PaperMeshOpti
   refine.finest_spacing_mm =
       options.finest_spacing_mm > 0 ? options.finest_spacing_mm : image.frame.spacing_mm.min_coeff();
   Lattice lattice = build_bcc_lattice(image, {options.spacing_mm, refine.finest_spacing_mm});
-  const CandidateMesh candidate = refine_lattice(lattice, image, refine, [](int, std::size_t) {}).mesh;
+  const CandidateMesh candidate =
+      refine_lattice(lattice, ImageDomain(image), refine, [](int, std::size_t) {}).mesh;
   MaterialMesh mesh = discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
   order_for_locality(mesh);
   if (options.mixed) {

@@ -10,8 +10,8 @@ namespace cbc3d {
 
 namespace {
 
-/// Those of the tets [begin, end). A vertex is met with again soon, from the tets beside: what was found last
-/// with the same hash tells most of those.
+/// The surface vertices of the tets [begin, end). A vertex is soon met again, in the tets beside: a table of
+/// those found last, by a hash, leaves most of the repetitions out.
 std::vector<SurfaceVertex> surface_vertices_of(const TetNodes& tets, const TetNeighbours& neighbours,
                                                const std::vector<MaterialId>& materials, std::size_t begin,
                                                std::size_t end) {
@@ -73,12 +73,12 @@ BoundaryCoverage::BoundaryCoverage(const LabelImage& image)
 
 namespace {
 
-/// Surface vertices in cubes, so that one near a place is found without looking at the others.
+/// Surface vertices sorted by cubes, so that one near a place is found without looking at the others.
 class VertexCubes {
  public:
   VertexCubes(const ImageFrame& frame, const std::vector<SurfaceVertex>& surface,
               const std::vector<Vec3>& points, double distance_mm)
-      // Finer cubes than a few voxels would cost memory and tell little more.
+      // Finer cubes than a few voxels would cost memory and narrow the search little.
       : distance_mm_(distance_mm), cubes_(frame, std::max(distance_mm, 4 * frame.spacing_mm.max_coeff())) {
     first_.assign(cubes_.count() + 1, 0);
     for (const SurfaceVertex& s : surface) {
@@ -99,8 +99,8 @@ class VertexCubes {
     MaterialId material;
   };
 
-  /// True when a vertex of the material lies within the distance of x. `last` is one that did for another
-  /// place: what follows along a row mostly has the same.
+  /// True when a vertex of the material lies within the distance of x. `last` is the one found for the
+  /// place before: along a row it mostly does for the next place too.
   [[nodiscard]] bool is_near(const Vec3& x, MaterialId material, const Place*& last) const {
     if (last != nullptr && reaches(*last, x, material)) {
       return true;
@@ -199,32 +199,33 @@ bool BoundaryCoverage::wants_refinement(int j, int k, int i_begin, int i_end) co
   return uncovered_.any(begin, end) || across_.any(begin, end);
 }
 
-InterfaceCoverage::InterfaceCoverage(const LabelImage& image)
-    : image_(image), interfaces_(interface_points(image)), wanted_(image.frame.voxel_count()) {}
+InterfaceCoverage::InterfaceCoverage(const ImageDomain& domain)
+    : image_(domain.image()), samples_(domain.samples()), wanted_(image_.frame.voxel_count()) {}
 
 void InterfaceCoverage::update(const std::vector<MaterialSet>& sets, const std::vector<Vec3>& points,
                                double distance_mm) {
   wanted_.clear();
-  const std::vector<std::size_t> missing = renew_hosts(interfaces_, points, sets, distance_mm, hosts_);
-  uncovered_ = missing.size();
-  for (const std::size_t p : missing) {
-    want(interfaces_[p]);
+  const std::vector<std::size_t> uncovered =
+      renew_covering_vertices(samples_, points, sets, distance_mm, covering_);
+  uncovered_ = uncovered.size();
+  for (const std::size_t s : uncovered) {
+    want(samples_[s]);
   }
 }
 
-void InterfaceCoverage::want(const InterfacePoint& point) {
+void InterfaceCoverage::want(const BoundarySample& sample) {
   const ImageFrame& frame = image_.frame;
   Index3 at;
   for (int axis = 0; axis < 3; ++axis) {
     at[static_cast<std::size_t>(axis)] =
-        static_cast<int>(std::lround(point.centre()[axis] / frame.spacing_mm[axis]));
+        static_cast<int>(std::lround(sample.centre()[axis] / frame.spacing_mm[axis]));
   }
   wanted_.set(frame.offset(at[0], at[1], at[2]));
   for (std::size_t n = 0; n < 6; ++n) {
     Index3 across = at;
     across[n / 2] += n % 2 == 0 ? -1 : 1;
     if (frame.contains(across[0], across[1], across[2]) &&
-        image_.at(across[0], across[1], across[2]) == point.other) {
+        image_.at(across[0], across[1], across[2]) == sample.other) {
       wanted_.set(frame.offset(across[0], across[1], across[2]));
     }
   }

@@ -1,12 +1,12 @@
-// Which boundary voxels of the image have a vertex of the mesh's interface nearby.
+// Which boundary voxels, or boundary samples, of an image the vertices of a mesh cover: the refinement asks
+// in every round which are still uncovered.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "mesher/core/label_image.hpp"
 #include "mesher/core/voxel_bits.hpp"
-#include "mesher/domain/interface_points.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/topology/tet_adjacency.hpp"
 
 namespace cbc3d {
@@ -18,8 +18,8 @@ struct SurfaceVertex {
   auto operator<=>(const SurfaceVertex&) const = default;
 };
 
-/// Every (vertex, material) with the vertex on a face between that labelled material and anything else; one
-/// that is seen from several tets may be there more than once.
+/// Every (vertex, material) with the vertex on a face between that labelled material and anything else. A
+/// pair may occur more than once.
 std::vector<SurfaceVertex> surface_vertices(const TetNodes& tets, const TetNeighbours& neighbours,
                                             const std::vector<MaterialId>& materials);
 
@@ -39,12 +39,12 @@ class BoundaryCoverage {
   /// Calls f(centre in local mm) for each of those voxels.
   template <typename F>
   void for_each_wanted(const F& f) const {
-    const auto tell = [&](std::size_t v) {
+    const auto visit = [&](std::size_t v) {
       const Index3 at = image_.frame.index_of(v);
       f(image_.frame.local_centre(at[0], at[1], at[2]));
     };
-    uncovered_.for_each(0, image_.frame.voxel_count(), tell);
-    across_.for_each(0, image_.frame.voxel_count(), tell);
+    uncovered_.for_each(0, image_.frame.voxel_count(), visit);
+    across_.for_each(0, image_.frame.voxel_count(), visit);
   }
   /// Number of boundary voxels without a surface vertex nearby.
   [[nodiscard]] std::size_t uncovered_count() const { return uncovered_count_; }
@@ -65,18 +65,21 @@ class BoundaryCoverage {
   std::size_t uncovered_count_ = 0;
 };
 
-/// The same question asked for every interface: a boundary voxel with face neighbours of several materials
-/// wants a vertex where its own and that material meet for each of them. A gap of background between two
-/// labels that the mesh has closed shows here, and nowhere in the coverage of either label.
+/// The same question asked for every interface, that is for every boundary sample: a boundary voxel with face
+/// neighbours of several materials needs for each of them a vertex where its own and that material meet. A
+/// gap of background between two labels that the mesh has closed shows here, and nowhere in the coverage of
+/// either label.
 class InterfaceCoverage {
  public:
-  explicit InterfaceCoverage(const LabelImage& image);
+  /// `domain` must outlive this.
+  explicit InterfaceCoverage(const ImageDomain& domain);
 
-  /// Renews the answers; `sets` are the materials round the vertices at `points`, which may become more from
-  /// one update to the next but do not move. Always the same distance.
+  /// Renews the answers; `sets` are the materials around the vertices at `points`. From one update to the
+  /// next vertices may be added, but none moves, and the distance stays the same.
   void update(const std::vector<MaterialSet>& sets, const std::vector<Vec3>& points, double distance_mm);
 
-  /// True when one of the voxels (i_begin ... i_end - 1, j, k) has an interface missing, or is across one.
+  /// True when one of the voxels (i_begin ... i_end - 1, j, k) has an uncovered sample, or lies across its
+  /// face.
   [[nodiscard]] bool wants_refinement(int j, int k, int i_begin, int i_end) const {
     const std::size_t row = image_.frame.offset(0, j, k);
     return wanted_.any(row + static_cast<std::size_t>(i_begin), row + static_cast<std::size_t>(i_end));
@@ -90,14 +93,14 @@ class InterfaceCoverage {
     });
   }
   [[nodiscard]] std::size_t uncovered_count() const { return uncovered_; }
-  [[nodiscard]] std::size_t point_count() const { return interfaces_.size(); }
+  [[nodiscard]] std::size_t sample_count() const { return samples_.size(); }
 
  private:
-  void want(const InterfacePoint& point);
+  void want(const BoundarySample& sample);
 
   const LabelImage& image_;
-  std::vector<InterfacePoint> interfaces_;
-  std::vector<VertexId> hosts_;  // of the points, as the last update found them
+  const std::vector<BoundarySample>& samples_;
+  std::vector<VertexId> covering_;  // vertex of each sample, as the last update found it
   VoxelBits wanted_;
   std::size_t uncovered_ = 0;
 };

@@ -66,7 +66,8 @@ TEST(InterfaceCoverage, AClosedGapBetweenTwoLabelsIsSeen) {
   open.points = closed.points;
   open.sets = closed.sets;
   for (MaterialSet& set : open.sets) set.add(kBackground);
-  InterfaceCoverage coverage(image);
+  const ImageDomain domain(image);
+  InterfaceCoverage coverage(domain);
   coverage.update(open.sets, open.points, 1.1);
   const std::size_t elsewhere = coverage.uncovered_count();  // on the image's border
   EXPECT_FALSE(coverage.wants_refinement(2, 2, 3, 6));

@@ -1,4 +1,4 @@
-// Cubes that space is cut in, to find what is near a place.
+// Space is cut into cubes, to find what is near a place.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace cbc3d {
 
-/// Cubes all over space, each with a key; those that follow each other along x have keys that do.
+/// Cubes without bounds, each with a key. Cubes that follow each other along x have consecutive keys.
 struct CubeKeys {
   double edge_mm;
 

@@ -10,7 +10,7 @@ namespace cbc3d {
 
 enum class BackgroundRank { lowest, highest };
 
-/// What an image has of each of its materials.
+/// The voxels of every material of an image.
 struct MaterialVoxels {
   std::vector<std::size_t> count;
   std::vector<std::size_t>

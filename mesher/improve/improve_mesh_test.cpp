@@ -27,13 +27,13 @@ using testing::touching_balls;
 /// The lattice mesh of an image after the whole stage. Nearer to the boundary than by default, images of this
 /// size have facets enough to be moved and tets within.
 MaterialMesh improved(const LabelImage& image, ImproveOptions options,
-                      double reach_diagonals = kReachDiagonals) {
+                      double reach_diagonals = tolerances::kReach) {
   MaterialMesh mesh = testing::lattice_mesh(image, reach_diagonals);
   options.reach_mm = reach_diagonals * image.frame.voxel_diagonal_mm();
-  if (reach_diagonals < kReachDiagonals) {
+  if (reach_diagonals < tolerances::kReach) {
     options.deviation_diagonals = 0.2;
   }
-  improve_mesh(mesh, image, options, [](int) {});
+  improve_mesh(mesh, ImageDomain(image), options, [](int) {});
   return mesh;
 }
 
@@ -48,14 +48,14 @@ TEST(ImproveMesh, LeavesAGoodMeshGoodAndIsRepeatable) {
   MaterialMesh again = mesh;
   ImproveOptions options;
   int rounds = 0;
-  const ImproveReport report = improve_mesh(mesh, image, options, [&](int) { ++rounds; });
-  improve_mesh(again, image, options, [](int) {});
+  const ImproveReport report = improve_mesh(mesh, ImageDomain(image), options, [&](int) { ++rounds; });
+  improve_mesh(again, ImageDomain(image), options, [](int) {});
   EXPECT_EQ(mesh.points, again.points);
   EXPECT_EQ(mesh.tets, again.tets);
   EXPECT_GT(rounds, 0);
   EXPECT_LE(report.tets_after, report.tets_before);
   EXPECT_GE(report.min_dihedral_after_deg, 20);
-  EXPECT_EQ(report.uncovered_points, 0U);
+  EXPECT_EQ(report.uncovered_samples, 0U);
 }
 
 TEST(ImproveMesh, SmoothnessFlattensWithinItsCap) {
@@ -64,7 +64,8 @@ TEST(ImproveMesh, SmoothnessFlattensWithinItsCap) {
     const double before = normal_error_deg(trial.surface(), trial.mesh.points, kBallCentre);
     const auto near_before = trial.deviations();
     for (int sweep = 0; sweep < 6; ++sweep) {
-      EXPECT_GT(trial.relax({1000, 0.5, 0, 0.8, cap_mm}, cap_mm), 0U);
+      EXPECT_GT(trial.relax({.surface_weight = 1000, .smoothness = 0.8, .smoothness_cap_mm = cap_mm}, cap_mm),
+                0U);
     }
     EXPECT_EQ(testing::inverted_tets(trial.mesh.tets, trial.mesh.points), 0U);
     const double after = normal_error_deg(trial.surface(), trial.mesh.points, kBallCentre);
@@ -87,7 +88,8 @@ TEST(ImproveMesh, SmoothnessLeavesASphereAsItIs) {
   }
   ASSERT_EQ(testing::inverted_tets(trial.mesh.tets, trial.mesh.points), 0U);
   for (int sweep = 0; sweep < 8; ++sweep) {
-    trial.relax({1000, 0.5, 0, 1, 0.8}, 0.8);  // smoothness alone
+    trial.relax({.surface_weight = 1000, .smoothness = 1, .smoothness_cap_mm = 0.8},
+                0.8);  // smoothness alone
   }
   double sum = 0;
   std::size_t far = 0;
@@ -105,7 +107,7 @@ TEST(ImproveMesh, SmoothnessLeavesASphereAsItIs) {
 TEST(ImproveMesh, SmoothnessMakesFlatterSurfacesOfAsGoodTets) {
   const LabelImage image = ball();
   const auto voxels = static_cast<double>(image.voxels_per_material()[1]);
-  const ImageBoundary boundary(image, {});
+  const ImageDomain domain(image);
   for (const bool fine : {false, true}) {
     const auto mesh_with = [&](double smoothness) {
       ImproveOptions options;
@@ -121,7 +123,7 @@ TEST(ImproveMesh, SmoothnessMakesFlatterSurfacesOfAsGoodTets) {
     for (const testing::FaceKey& f :
          testing::surface_of_label(smooth.tets, smooth.materials, MaterialId{1})) {
       for (const VertexId v : f) {
-        EXPECT_LT(boundary.sample(smooth.points[v], 1, kBackground).deviation_mm, farthest_mm);
+        EXPECT_LT(domain.boundary_distance(smooth.points[v], 1, kBackground).deviation_mm, farthest_mm);
       }
     }
   }

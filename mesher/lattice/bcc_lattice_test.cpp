@@ -31,7 +31,7 @@ TEST(BccLattice, InnerVerticesHave24TetsAnd14Edges) {
   const LabelImage image = testing::ball_image(40, 1, 18);
   const Lattice lattice = build_bcc_lattice(image, {5, 5});
   const LatticeTets tets = extract_tets(lattice);
-  const VertexTets around = tets_of_vertices(tets.nodes, lattice.points.size());
+  const VertexCells around = tets_of_vertices(tets.nodes, lattice.points.size());
   std::size_t inner = 0;
   for (std::size_t v = 0; v < lattice.points.size(); ++v) {
     if ((lattice.frame.local(lattice.points[v]) - testing::centre_of(image)).norm() < 9) {
@@ -47,7 +47,7 @@ TEST(BccLattice, TetsWithLabelledVoxelsHaveTheWholeStarsOfTheirVertices) {
       testing::noise_image(40, 0.0005, 8);  // sparse: few tets hold a voxel, and far apart
   const Lattice lattice = build_bcc_lattice(image, {5, 5});
   const LatticeTets tets = extract_tets(lattice);
-  const VertexTets around = tets_of_vertices(tets.nodes, lattice.points.size());
+  const VertexCells around = tets_of_vertices(tets.nodes, lattice.points.size());
   const VoxelRaster raster(image.frame, lattice.frame);
   std::size_t labelled = 0;
   for (const auto& n : tets.nodes) {

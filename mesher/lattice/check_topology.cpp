@@ -45,9 +45,9 @@ bool is_manifold_everywhere(VertexStar& star) {
 }
 
 /// True when tets of two classes or more meet at v; only there a surface can be.
-bool is_mixed(const VertexTets& around, VertexId v, const std::vector<ClassId>& class_of_tet) {
+bool is_mixed(const VertexCells& around, VertexId v, const std::vector<ClassId>& class_of_tet) {
   for (std::uint32_t i = around.first[v] + 1; i < around.first[v + 1]; ++i) {
-    if (class_of_tet[around.tets[i]] != class_of_tet[around.tets[i - 1]]) {
+    if (class_of_tet[around.cells[i]] != class_of_tet[around.cells[i - 1]]) {
       return true;
     }
   }
@@ -55,7 +55,7 @@ bool is_mixed(const VertexTets& around, VertexId v, const std::vector<ClassId>& 
 }
 
 /// Those of `candidates` (ascending) at which a surface is no manifold.
-std::vector<VertexId> find_non_manifold(const VertexTets& around, const CandidateMesh& mesh,
+std::vector<VertexId> find_non_manifold(const VertexCells& around, const CandidateMesh& mesh,
                                         const std::vector<ClassId>& class_of_tet,
                                         const std::vector<VertexId>& candidates) {
   std::vector<std::uint8_t> bad(candidates.size(), 0);
@@ -79,7 +79,7 @@ std::vector<VertexId> find_non_manifold(const VertexTets& around, const Candidat
   return vertices;
 }
 
-std::vector<VertexId> find_non_manifold(const VertexTets& around, const CandidateMesh& mesh,
+std::vector<VertexId> find_non_manifold(const VertexCells& around, const CandidateMesh& mesh,
                                         const std::vector<ClassId>& class_of_tet) {
   std::vector<VertexId> all(around.first.size() - 1);
   std::iota(all.begin(), all.end(), VertexId{0});
@@ -88,14 +88,14 @@ std::vector<VertexId> find_non_manifold(const VertexTets& around, const Candidat
 
 class Repair {
  public:
-  Repair(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+  Repair(CandidateMesh& mesh, const std::vector<Vec3>& points, const ImageDomain& domain,
          const TopologyOptions& options)
       : mesh_(mesh),
         points_(points),
-        image_(image),
+        image_(domain.image()),
         options_(options),
-        classes_(image.labels),
-        voxels_(count_materials(image)),
+        classes_(image_.labels),
+        voxels_(domain.voxels()),
         rank_(rank_by_size(voxels_, classes_.of_material, BackgroundRank::highest)),
         around_(tets_of_vertices(mesh.tets.nodes, points.size())),
         unsure_(mesh.unsure),
@@ -163,8 +163,8 @@ class Repair {
   void force_star(VertexId v) {
     const MaterialId material = image_.at_local(points_[v]);
     for (std::uint32_t i = around_.first[v]; i < around_.first[v + 1]; ++i) {
-      if (mesh_.materials[around_.tets[i]] != material) {
-        relabel(around_.tets[i], material);
+      if (mesh_.materials[around_.cells[i]] != material) {
+        relabel(around_.cells[i], material);
       }
     }
   }
@@ -451,9 +451,9 @@ class Repair {
   const LabelImage& image_;
   const TopologyOptions& options_;
   Classes classes_;
-  MaterialVoxels voxels_;
+  const MaterialVoxels& voxels_;
   std::vector<std::uint32_t> rank_;
-  VertexTets around_;
+  VertexCells around_;
   std::vector<std::uint8_t>& unsure_;  // of the mesh
   std::vector<ClassId> class_of_tet_;
   VertexStar star_;
@@ -465,18 +465,18 @@ class Repair {
 
 std::vector<VertexId> non_manifold_vertices(const CandidateMesh& mesh, std::size_t vertex_count,
                                             const std::vector<Label>& label_of_material) {
-  const VertexTets around = tets_of_vertices(mesh.tets.nodes, vertex_count);
+  const VertexCells around = tets_of_vertices(mesh.tets.nodes, vertex_count);
   return find_non_manifold(around, mesh, classes_of_tets(Classes(label_of_material), mesh.materials));
 }
 
-TopologyReport check_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+TopologyReport check_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const ImageDomain& domain,
                               const TopologyOptions& options) {
-  return Repair(mesh, points, image, options).run();
+  return Repair(mesh, points, domain, options).run();
 }
 
-void repair_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+void repair_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const ImageDomain& domain,
                      const TopologyOptions& options) {
-  Repair(mesh, points, image, options).repair();
+  Repair(mesh, points, domain, options).repair();
 }
 
 }  // namespace cbc3d

@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "mesher/core/label_image.hpp"
-#include "mesher/lattice/refine_lattice.hpp"
+#include "mesher/domain/image_domain.hpp"
+#include "mesher/lattice/candidate_mesh.hpp"
 
 namespace cbc3d {
 
@@ -58,11 +58,11 @@ std::vector<VertexId> non_manifold_vertices(const CandidateMesh& mesh, std::size
 
 /// Makes every label's sub-mesh a manifold and removes small components, by relabelling. Looks at the
 /// vertices that `mesh.unsure` has, and leaves there what is known then.
-TopologyReport check_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+TopologyReport check_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const ImageDomain& domain,
                               const TopologyOptions& options);
 
 /// The same without the account of what was found.
-void repair_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const LabelImage& image,
+void repair_topology(CandidateMesh& mesh, const std::vector<Vec3>& points, const ImageDomain& domain,
                      const TopologyOptions& options);
 
 }  // namespace cbc3d

@@ -37,9 +37,9 @@ MaterialMesh mesh_with_checks(LabelImage& image, bool checks, TopologyReport& re
   refine.finest_spacing_mm = 1;
   refine.topology_checks = checks;
   Lattice lattice = build_bcc_lattice(image, {default_lattice_spacing_mm(image.frame), 0.25});
-  CandidateMesh candidate = refine_lattice(lattice, image, refine, [](int, std::size_t) {}).mesh;
+  CandidateMesh candidate = refine_lattice(lattice, ImageDomain(image), refine, [](int, std::size_t) {}).mesh;
   if (checks) {
-    report = check_topology(candidate, local_points(lattice), image, {.enabled = true});
+    report = check_topology(candidate, local_points(lattice), ImageDomain(image), {.enabled = true});
   }
   return discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
 }
@@ -124,7 +124,9 @@ TEST(CheckTopology, TheImageDecidesFirstAtANonManifoldVertex) {
     const LabelImage image = testing::make_image({3, 3, 3}, {1, 1, 1}, 1, [&](const Vec3&) { return there; });
     std::vector<Vec3> points;
     CandidateMesh mesh = octants({1, 0, 0, 0, 0, 0, 0, 1}, points);
-    const TopologyReport report = check_topology(mesh, points, image, {true, false, 1, 0.0});
+    const TopologyReport report =
+        check_topology(mesh, points, ImageDomain(image),
+                       {.enabled = true, .one_face_rule = false, .image_passes = 1, .small_component = 0});
     EXPECT_EQ(mesh.materials, std::vector<MaterialId>(8, static_cast<MaterialId>(there)));
     EXPECT_EQ(report.non_manifold_vertices, 1U);
     EXPECT_EQ(report.tets_relabelled, there == 1 ? 6U : 2U);

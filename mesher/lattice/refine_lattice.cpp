@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "mesher/domain/coverage.hpp"
-#include "mesher/domain/image_boundary.hpp"
 #include "mesher/domain/size_rank.hpp"
 #include "mesher/lattice/check_topology.hpp"
 #include "mesher/lattice/fidelity_account.hpp"
@@ -22,33 +21,29 @@ namespace {
 
 class Refiner {
  public:
-  Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options)
-      : Refiner(lattice, image, options, count_materials(image)) {}
-
-  Refiner(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
-          const MaterialVoxels& voxels)
+  Refiner(Lattice& lattice, const ImageDomain& domain, const RefineOptions& options)
       : lattice_(lattice),
-        image_(image),
+        domain_(domain),
+        image_(domain.image()),
         options_(options),
-        raster_(image.frame, lattice.frame),
-        account_(image, raster_, voxels.count),
-        boundary_(image, {}),
+        raster_(image_.frame, lattice.frame),
+        account_(image_, raster_, domain.voxels().count),
         red_green_(lattice),
         follower_(lattice),
-        rank_(rank_by_size(voxels, BackgroundRank::highest)) {
-    for (std::size_t m = 0; m < image.material_count(); ++m) {
-      const auto own = options.material_fidelity.find(image.labels[m]);
-      result_.fidelity.push_back({static_cast<MaterialId>(m), image.labels[m],
+        rank_(rank_by_size(domain.voxels(), BackgroundRank::highest)) {
+    for (std::size_t m = 0; m < image_.material_count(); ++m) {
+      const auto own = options.material_fidelity.find(image_.labels[m]);
+      result_.fidelity.push_back({static_cast<MaterialId>(m), image_.labels[m],
                                   own != options.material_fidelity.end() ? own->second : options.fidelity, 0,
                                   account_.image_voxels(m), 0});
     }
     if (options.max_distance_mm > 0 && options.each_interface) {
-      interfaces_.emplace(image);
+      interfaces_.emplace(domain);
     } else if (options.max_distance_mm > 0) {
-      coverage_.emplace(image);
+      coverage_.emplace(image_);
     }
     if (interfaces_ || coverage_) {
-      places_.emplace(image.frame, lattice.frame);
+      places_.emplace(image_.frame, lattice.frame);
     }
   }
 
@@ -81,7 +76,7 @@ class Refiner {
     append_local_points(lattice_, points_);
     touched_.resize(points_.size(), 1);
     mesh.unsure.resize(points_.size(), 1);
-    stray_verdict_.resize(points_.size(), 0);
+    far_verdict_.resize(points_.size(), 0);
   }
 
   /// Takes the tets that are gone out of the account.
@@ -107,7 +102,7 @@ class Refiner {
           centroid += 0.25 * points_[v];
         }
         centroid_material_[t] =
-            options_.smooth_labels ? boundary_.material_at(centroid) : image_.at_local(centroid);
+            options_.smooth_labels ? domain_.material_at(centroid) : image_.at_local(centroid);
       }
     }
     mesh.materials.assign(centroid_material_.begin(), centroid_material_.end());
@@ -130,7 +125,7 @@ class Refiner {
     find_uncovered_voxels();
     measure_fidelity();
     mark_uncovered();
-    mark_strays();
+    mark_far_vertices();
     const std::vector<MaterialId>& materials = result_.mesh.materials;
 #pragma omp parallel for schedule(static)
     for (std::size_t t = 0; t < judged_.size(); ++t) {
@@ -290,18 +285,21 @@ class Refiner {
   /// What is to be kept is the mesh after the repair of its topology, so that is judged as well: where the
   /// repair takes a boundary voxel's interface away, a finer lattice keeps it.
   void mark_what_repair_loses() {
-    repair_topology(result_.mesh, points_, image_,
-                    {true, options_.one_face_rule, options_.repair_image_passes, 0.0});
+    repair_topology(result_.mesh, points_, domain_,
+                    {.enabled = true,
+                     .one_face_rule = options_.one_face_rule,
+                     .image_passes = options_.repair_image_passes,
+                     .small_component = 0});
     judge();
   }
 
-  /// Noise asks for the finest lattice everywhere; what a real image needs is 6 to 15 tets a point, and more
-  /// where specks of a voxel are many.
+  /// Noise asks for the finest lattice everywhere. A real image needs 6 to 15 tets for each boundary sample,
+  /// and more where it has many specks of a voxel.
   bool exceeds_budget() {
-    constexpr std::size_t kTetsPerPoint = 40;
+    constexpr std::size_t kTetsPerSample = 40;
     constexpr std::size_t kTets = 250000;
     const std::size_t tets = result_.mesh.tets.size();
-    if (!interfaces_ || tets < kTets + kTetsPerPoint * interfaces_->point_count()) {
+    if (!interfaces_ || tets < kTets + kTetsPerSample * interfaces_->sample_count()) {
       return false;
     }
     result_.warnings.push_back("the refinement ended at " + std::to_string(tets) +
@@ -315,7 +313,7 @@ class Refiner {
       return;
     }
     const std::vector<double> size_mm =
-        values_of_materials(image_, options_.size_mm, std::numeric_limits<double>::infinity());
+        values_of_materials(image_.labels, options_.size_mm, std::numeric_limits<double>::infinity());
     const std::vector<MaterialId>& materials = result_.mesh.materials;
 #pragma omp parallel for schedule(static, 1024)
     for (std::size_t t = 0; t < materials.size(); ++t) {
@@ -325,21 +323,22 @@ class Refiner {
     }
   }
 
-  /// The other direction: a vertex of an interface that lies too far from where the image has that interface.
-  void mark_strays() {
-    if (options_.max_stray_mm <= 0 || !interfaces_) {
+  /// The other direction: marks the tets at vertices of an interface that lie too far from where the image
+  /// has it.
+  void mark_far_vertices() {
+    if (options_.max_vertex_distance_mm <= 0 || !interfaces_) {
       return;
     }
     mark_false_contacts();
 #pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t t = 0; t < judged_.size(); ++t) {
       for (std::size_t n = 0; n < 4 && is_changed(t); ++n) {
-        mark_if_stray(t, n);
+        mark_if_far(t, n);
       }
     }
   }
 
-  void mark_if_stray(std::size_t t, std::size_t n) {
+  void mark_if_far(std::size_t t, std::size_t n) {
     const CandidateMesh& mesh = result_.mesh;
     const TetId across = mesh.neighbours[t][n];
     const MaterialId own = mesh.materials[t];
@@ -347,10 +346,10 @@ class Refiner {
     if (own == other || (own < other && is_changed(across))) {  // the latter is the other tet's turn
       return;
     }
-    const bool strays = std::any_of(kTetFace[n].begin(), kTetFace[n].end(), [&](std::uint8_t corner) {
-      return is_stray(mesh.tets.nodes[t][corner], std::max(own, other), std::min(own, other));
+    const bool is_far = std::any_of(kTetFace[n].begin(), kTetFace[n].end(), [&](std::uint8_t corner) {
+      return is_far_vertex(mesh.tets.nodes[t][corner], std::max(own, other), std::min(own, other));
     });
-    if (strays) {
+    if (is_far) {
       mark_tet(t);
       if (across != kNoTet) {
         mark_tet(across);
@@ -359,17 +358,19 @@ class Refiner {
   }
 
   /// The last verdict on a vertex is kept with the materials it is about (a > b, so 0 is none): the faces
-  /// round the vertex ask the same again. Whatever thread writes it, it is a function of place and materials.
-  bool is_stray(VertexId v, MaterialId a, MaterialId b) {
+  /// around the vertex ask the same again. Whatever thread writes it, it is a function of place and
+  /// materials.
+  bool is_far_vertex(VertexId v, MaterialId a, MaterialId b) {
     const std::uint64_t question = (std::uint64_t{a} << 16U | b) << 1U;
-    std::atomic_ref<std::uint64_t> kept(stray_verdict_[v]);
+    std::atomic_ref<std::uint64_t> kept(far_verdict_[v]);
     const std::uint64_t known = kept.load(std::memory_order_relaxed);
     if ((known & ~std::uint64_t{1}) == question) {
       return (known & 1U) != 0;
     }
-    const bool stray = boundary_.sample(points_[v], a, b).deviation_mm > options_.max_stray_mm;
-    kept.store(question | (stray ? 1U : 0U), std::memory_order_relaxed);
-    return stray;
+    const bool is_far =
+        domain_.boundary_distance(points_[v], a, b).deviation_mm > options_.max_vertex_distance_mm;
+    kept.store(question | (is_far ? 1U : 0U), std::memory_order_relaxed);
+    return is_far;
   }
 
   /// Materials that meet at a vertex of the mesh and nowhere near it in the image: the lattice bridges a gap.
@@ -379,7 +380,7 @@ class Refiner {
 #pragma omp parallel for schedule(dynamic, 1024) reduction(|| : any)
     for (std::size_t v = 0; v < sets_.size(); ++v) {
       if (touched_[v] != 0 && sets_[v].size > 2 &&
-          !all_meet_near(image_, points_[v], sets_[v], options_.contact_reach_mm)) {
+          !domain_.all_meet_near(points_[v], sets_[v], options_.contact_distance_mm)) {
         bad[v] = 1;
         any = true;
       }
@@ -505,11 +506,11 @@ class Refiner {
   }
 
   Lattice& lattice_;
-  const LabelImage& image_;
+  const ImageDomain& domain_;
+  const LabelImage& image_;  // of the domain
   const RefineOptions& options_;
   VoxelRaster raster_;
   FidelityAccount account_;
-  ImageBoundary boundary_;
   std::optional<BoundaryCoverage> coverage_;
   std::optional<InterfaceCoverage> interfaces_;
   std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ or coverage_ wants
@@ -521,7 +522,7 @@ class Refiner {
   UninitializedVector<std::int32_t> judged_;       // the material each tet had when it was last judged
   UninitializedVector<ForeignMaterials> foreign_;  // what was in each tet then
   std::vector<std::uint8_t> touched_;              // vertices of tets that changed since
-  std::vector<std::uint64_t> stray_verdict_;       // of vertices, see is_stray
+  std::vector<std::uint64_t> far_verdict_;         // of vertices, see is_far_vertex
   std::vector<Vec3> points_;
   UninitializedVector<MaterialId> centroid_material_;
   std::vector<std::uint8_t> marked_;
@@ -532,9 +533,9 @@ class Refiner {
 
 }  // namespace
 
-RefineResult refine_lattice(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
+RefineResult refine_lattice(Lattice& lattice, const ImageDomain& domain, const RefineOptions& options,
                             const std::function<void(int round, std::size_t tets)>& on_round) {
-  return Refiner(lattice, image, options).run(on_round);
+  return Refiner(lattice, domain, options).run(on_round);
 }
 
 }  // namespace cbc3d

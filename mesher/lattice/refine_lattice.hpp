@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/core/label_image.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/lattice/candidate_mesh.hpp"
 #include "mesher/lattice/lattice.hpp"
 
@@ -18,11 +18,12 @@ struct RefineOptions {
   double fidelity = 0.95;                     ///< F: a material is refined while F > F1 or F > F2; in (0, 1]
   std::map<Label, double> material_fidelity;  ///< F of single labels, in place of the global one
   std::map<Label, double> size_mm;            ///< no lattice edge of these labels is longer
-  double max_distance_mm = 0;  ///< > 0: refine also where a boundary voxel has no interface vertex so near
-  double max_stray_mm = 0;  ///< > 0: refine also where an interface's vertex is farther than this from where
-                            ///< the image has that interface
-  double contact_reach_mm =
-      0;  ///< with max_stray_mm: materials that meet at a vertex are to meet so near in the image
+  double max_distance_mm =
+      0;  ///< > 0: refine also where a boundary voxel has no interface vertex within this
+  double max_vertex_distance_mm = 0;  ///< > 0: refine also where an interface's vertex is farther than this
+                                      ///< from where the image has that interface
+  double contact_distance_mm =
+      0;  ///< with max_vertex_distance_mm: materials that meet at a vertex must meet within this in the image
   bool smooth_labels = false;    ///< a tet takes the material whose smoothed share is largest at its centroid
   bool each_interface = false;   ///< the distance is judged for every interface, not for every material
   double finest_spacing_mm = 0;  ///< the fidelity criterion splits no tet below this lattice spacing, mm;
@@ -64,9 +65,9 @@ struct RefineResult {
   std::vector<std::string> warnings;  ///< which materials fall short, and why the rounds ended
 };
 
-/// Refines `lattice` in place. `on_round(round, tets)` is told of each round. Same result at any thread
-/// count.
-RefineResult refine_lattice(Lattice& lattice, const LabelImage& image, const RefineOptions& options,
+/// Refines `lattice` in place for the image of the domain. Calls `on_round(round, tets)` in each round. Same
+/// result at any thread count.
+RefineResult refine_lattice(Lattice& lattice, const ImageDomain& domain, const RefineOptions& options,
                             const std::function<void(int round, std::size_t tets)>& on_round);
 
 }  // namespace cbc3d

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "mesher/domain/image_boundary.hpp"
-#include "mesher/domain/interface_points.hpp"
+#include "mesher/domain/boundary_samples.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/refine_lattice.hpp"
 #include "mesher/testing/test_images.hpp"
@@ -16,7 +16,7 @@ using testing::touching_balls;
 
 TEST(RefineLattice, SmoothLabelsAreThoseOfTheBoundaryAtTheCentroids) {
   const LabelImage image = touching_balls();
-  const ImageBoundary boundary(image, {});
+  const ImageDomain domain(image);
   for (const bool smooth : {true, false}) {
     Lattice lattice = build_bcc_lattice(image, {3, 0.5});
     RefineOptions options;
@@ -25,7 +25,7 @@ TEST(RefineLattice, SmoothLabelsAreThoseOfTheBoundaryAtTheCentroids) {
     options.each_interface = true;
     options.max_distance_mm = image.frame.voxel_diagonal_mm();
     options.finest_spacing_mm = 1;
-    const RefineResult result = refine_lattice(lattice, image, options, [](int, std::size_t) {});
+    const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
     const std::vector<Vec3> points = local_points(lattice);
     const CandidateMesh& mesh = result.mesh;
     std::size_t unlike_voxel = 0;
@@ -33,12 +33,12 @@ TEST(RefineLattice, SmoothLabelsAreThoseOfTheBoundaryAtTheCentroids) {
       Vec3 centroid;
       for (const VertexId v : mesh.tets.nodes[t]) centroid += 0.25 * points[v];
       unlike_voxel += mesh.materials[t] != image.at_local(centroid) ? 1 : 0;
-      ASSERT_EQ(mesh.materials[t], smooth ? boundary.material_at(centroid) : image.at_local(centroid));
+      ASSERT_EQ(mesh.materials[t], smooth ? domain.material_at(centroid) : image.at_local(centroid));
     }
     EXPECT_EQ(unlike_voxel > 0, smooth);
     // The distance is held for every interface, so far as the lattice goes.
     const auto sets = vertex_materials(mesh.tets.nodes, mesh.materials, mesh.neighbours, points.size());
-    EXPECT_EQ(points_without_host(interface_points(image), points, sets, options.max_distance_mm).size(),
+    EXPECT_EQ(uncovered_samples(boundary_samples(image), points, sets, options.max_distance_mm).size(),
               result.uncovered_voxels);
     EXPECT_EQ(result.uncovered_voxels, 0U);
   }

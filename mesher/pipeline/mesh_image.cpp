@@ -163,15 +163,16 @@ void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
 }
 
 /// From the clean image to the mesh in local mm.
-MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& options, StageLog& log,
+MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions& options, StageLog& log,
                               const Progress& progress, MeshImageReport& report) {
+  const LabelImage& image = domain.image();
   Lattice lattice = log.run(
       "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
   if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
 
   const RefineOptions refine = refine_options(image, options);
   report.refine = log.run("adaptive_refinement", 0.1, [&] {
-    return refine_lattice(lattice, image, refine, [&](int round, std::size_t tets) {
+    return refine_lattice(lattice, domain, refine, [&](int round, std::size_t tets) {
       progress.step(
           "adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
           std::min(0.5, 0.1 + 0.03 * round));
@@ -182,7 +183,7 @@ MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& o
 
   if (options.topology.enabled) {
     report.topology = log.run("topology_checks", 0.45, [&] {
-      return check_topology(candidate, local_points(lattice), image, options.topology);
+      return check_topology(candidate, local_points(lattice), domain, options.topology);
     });
     warn_of_topology(options, report);
   }
@@ -220,7 +221,7 @@ MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& o
   }
   if (options.improve.enabled && !options.mixed) {
     report.improve = log.run("improvement", 0.5, [&] {
-      return improve_mesh(mesh, image, options.improve, [&](int round) {
+      return improve_mesh(mesh, domain, options.improve, [&](int round) {
         progress.step("improvement, round " + std::to_string(round + 1), std::min(0.95, 0.5 + 0.06 * round));
       });
     });
@@ -231,10 +232,10 @@ MaterialMesh mesh_clean_image(const LabelImage& image, const MeshImageOptions& o
 }
 
 /// True when the improvement has not reached what it is for.
-bool has_faults(const MeshImageOptions& options, const ImproveReport& improve) {
+bool has_defects(const MeshImageOptions& options, const ImproveReport& improve) {
   constexpr double kHighestGoalDeg = 25;  // steeper goals are often missed, however fine the mesh
   const double goal_deg = options.improve.min_dihedral_deg;
-  return improve.crossings_left > 0 || improve.faults_left > 0 ||
+  return improve.self_intersections_left > 0 || improve.surface_defects_left > 0 ||
          (goal_deg <= kHighestGoalDeg && improve.min_dihedral_after_deg < goal_deg);
 }
 
@@ -256,12 +257,13 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progres
   warn_of_cleaning(report.clean, report);
 
   const std::vector<std::string> warnings = report.warnings;
-  MaterialMesh mesh = mesh_clean_image(image, options, log, progress, report);
-  if (options.stricter && options.improve.enabled && !options.mixed && has_faults(options, report.improve)) {
+  const ImageDomain domain(image, options.domain);  // the image does not change any more
+  MaterialMesh mesh = mesh_clean_image(domain, options, log, progress, report);
+  if (options.stricter && options.improve.enabled && !options.mixed && has_defects(options, report.improve)) {
     mesh = {};
     report.warnings = warnings;
     report.was_stricter = true;
-    mesh = mesh_clean_image(image, with_tolerance(options, *options.stricter), log, progress, report);
+    mesh = mesh_clean_image(domain, with_tolerance(options, *options.stricter), log, progress, report);
   }
   log.report_seconds();
   return to_physical_mesh(mesh, image);

@@ -19,7 +19,7 @@
 
 namespace cbc3d {
 
-/// What the thinning out is allowed.
+/// What the decimation may use up.
 struct Tolerance {
   double max_distance_mm;      ///< RefineOptions::max_distance_mm and ImproveOptions::reach_mm
   double deviation_diagonals;  ///< ImproveOptions::deviation_diagonals
@@ -30,14 +30,15 @@ struct MeshImageOptions {
   double lattice_spacing_mm =
       0;  ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
   CleanOptions clean;
+  ImageDomainOptions domain;
   RefineOptions refine;
   TopologyOptions topology;
   bool mixed = false;  ///< hexes and pyramids in uniform regions
   MixOptions mix;
   DeformOptions deform;
   ImproveOptions improve;
-  /// Where the improvement leaves faults, or angles below its goal, all is done once more with this: what is
-  /// thinned out less is easier to keep whole. None: never.
+  /// Where the improvement leaves surface defects, or angles below its goal, everything is done once more
+  /// with this: a mesh that is decimated less is easier to keep free of them. None: never.
   std::optional<Tolerance> stricter;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };

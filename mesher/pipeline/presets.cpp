@@ -1,6 +1,7 @@
 #include "mesher/pipeline/presets.hpp"
 
 #include "mesher/core/error.hpp"
+#include "mesher/domain/tolerances.hpp"
 
 namespace cbc3d {
 
@@ -10,59 +11,51 @@ std::vector<std::string> preset_names() {
 
 namespace {
 
-/// The image's boundary by distance, both ways, for every interface; what the improvement then keeps.
-void refine_by_distance(MeshImageOptions& options, double diagonal_mm) {
-  RefineOptions& refine = options.refine;
-  refine.fidelity = 0.01;
-  refine.max_distance_mm = kReachDiagonals * diagonal_mm;
-  refine.each_interface = true;
-  refine.max_stray_mm = 1.25 * diagonal_mm;
-  refine.contact_reach_mm = 0.45 * diagonal_mm;
-  refine.smooth_labels = true;
-  refine.one_face_rule = false;
-  refine.topology_rounds = 0;
-  refine.repair_rounds = 4;
-  refine.repair_image_passes = 4;
+/// The deformation's targets lie on the boundary itself, not half a voxel inside.
+constexpr DisplacementOptions kTargetsOnBoundary{.target_position = TargetPosition::voxel_faces,
+                                                 .pair_distance = 0.8};
+
+/// The image's boundary by distance, both ways, for every interface: what the improvement then keeps.
+RefineOptions refinement_by_distance(double diagonal_mm) {
+  return {.fidelity = 0.01,
+          .max_distance_mm = tolerances::kReach * diagonal_mm,
+          .max_vertex_distance_mm = tolerances::kLatticeFarLimit * diagonal_mm,
+          .contact_distance_mm = tolerances::kContact * diagonal_mm,
+          .smooth_labels = true,
+          .each_interface = true,
+          .one_face_rule = false,
+          .topology_rounds = 0,
+          .repair_rounds = 4,
+          .repair_image_passes = 4};
 }
 
-/// With hexes and pyramids, which the improvement does not know: the deformation on the voxels' faces.
+/// The deformation in place of the improvement, which does not work on hexes and pyramids.
 MeshImageOptions mixed_quality_options(double diagonal_mm) {
-  MeshImageOptions options;
-  options.clean.region_tolerance = 0;
-  options.refine.max_distance_mm = 2 * diagonal_mm;
-  options.deform.displacement.target_position = TargetPosition::voxel_faces;
-  options.deform.displacement.pair_distance = 0.8;
-  return options;
+  return {.clean = {.region_tolerance = 0},
+          .refine = {.max_distance_mm = 2 * diagonal_mm},
+          .deform = {.displacement = kTargetsOnBoundary}};
 }
 
 MeshImageOptions quality_options(double diagonal_mm) {
-  MeshImageOptions options;
-  options.clean.region_tolerance = 0;
-  options.clean.manifold_voxels = false;  // the mesh's own repair decides with less change
-  refine_by_distance(options, diagonal_mm);
-  options.topology.enabled = true;
-  options.topology.one_face_rule = false;
-  options.topology.image_passes = 4;
-  options.topology.small_component = 0;
-  options.deform.iterations = 0;
-  options.deform.displacement.target_position = TargetPosition::voxel_faces;
-  options.deform.displacement.pair_distance = 0.8;
-  options.improve.enabled = true;
-  options.improve.reach_mm = options.refine.max_distance_mm;
-  options.stricter = Tolerance{0.9 * diagonal_mm, 0.2, 0};
-  return options;
+  const RefineOptions refine = refinement_by_distance(diagonal_mm);
+  return {.clean = {.region_tolerance = 0, .manifold_voxels = false},  // the mesh's own repair changes less
+          .refine = refine,
+          .topology = {.enabled = true, .one_face_rule = false, .image_passes = 4, .small_component = 0},
+          .deform = {.iterations = 0, .displacement = kTargetsOnBoundary},
+          .improve = {.enabled = true, .reach_mm = refine.max_distance_mm},
+          .stricter = Tolerance{
+              .max_distance_mm = tolerances::kStrictReach * diagonal_mm, .deviation_diagonals = tolerances::kStrictDeviation, .collapse_leeway_deg = 0}};
 }
 
 }  // namespace
 
 MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame, bool mixed) {
-  MeshImageOptions options;
   if (name == "quality") {
     return mixed ? mixed_quality_options(frame.voxel_diagonal_mm())
                  : quality_options(frame.voxel_diagonal_mm());
   }
   if (name == "paper") {
-    return options;
+    return {};
   }
   throw InputError("preset '" + name + "' is unknown; give quality or paper", "preset");
 }

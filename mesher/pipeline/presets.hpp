@@ -8,19 +8,24 @@
 
 namespace cbc3d {
 
-/// "quality": our best. The lattice is refined where a boundary voxel has no vertex of its interface within
-///   1.06 voxel diagonals, or a vertex strays farther than 1.25 from its interface, instead of by the
-///   fidelity; its labels are those of the smoothed image; vertices then move to the boundary and the tets
-///   are improved and thinned out under guards (stage "improvement") in place of the elastic deformation. No
-///   region is dropped and no voxel changed. With mixed elements, which the improvement does not know, it is
-///   the paper's method with targets on the voxels' faces and refinement by distance.
-/// "paper": the published method with the published parameters. Where the paper is silent or stops, both
-///   presets do the same: sources move along the normal, far pairs of source and target are pulled together,
-///   and only the vertices of failing elements are held back (OnFailure::stop is the paper's own end).
+/// The first is the default.
+///
+/// "quality" gives the best meshes we know how to make. The lattice is refined where a boundary voxel has no
+/// vertex of
+///   its interface within 1.06 voxel diagonals, or where a vertex lies farther than 1.25 from its interface,
+///   instead of by the fidelity; its labels are those of the smoothed image. Vertices then move to the
+///   boundary, and the tets are improved and decimated under guards (stage "improvement") in place of the
+///   elastic deformation. No region is dropped and no voxel is changed. With mixed elements, on which the
+///   improvement does not work, it is the paper's method with targets on the voxels' faces and refinement by
+///   distance.
+/// "paper" is the published method with the published parameters. Where the paper is silent or stops, both
+/// presets do
+///   the same: sources move along the normal, far pairs of source and target are pulled together, and only
+///   the vertices of failing elements are held back (OnFailure::stop is the paper's own end).
 std::vector<std::string> preset_names();
 
-/// The options of a preset for an image, for a mesh of tets or of mixed elements. Throws InputError for an
-/// unknown name.
+/// The options of a preset for an image, for a mesh of tets or, when `mixed`, of mixed elements
+/// (MeshImageOptions::mixed itself is left off). Throws InputError for an unknown name.
 MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame, bool mixed = false);
 
 }  // namespace cbc3d

@@ -164,7 +164,7 @@ TEST(QualityPreset, EveryInterfaceOfTheImageHasVerticesNearby) {
   const auto sets = vertex_materials(local.tets, local.materials,
                                      tet_neighbours(local.tets, local.points.size()), local.points.size());
   const double diagonal = image.frame.voxel_diagonal_mm();
-  EXPECT_TRUE(points_without_host(interface_points(image), local.points, sets, 1.1 * diagonal).empty());
+  EXPECT_TRUE(uncovered_samples(boundary_samples(image), local.points, sets, 1.1 * diagonal).empty());
 }
 
 TEST(Presets, AreNamedAndOthersRefused) {

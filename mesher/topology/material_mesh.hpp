@@ -13,8 +13,6 @@
 
 namespace cbc3d {
 
-using CellId = std::uint32_t;
-
 /// Cells of one kind with their materials; node orders are those of Mesh.
 template <std::size_t Nodes>
 struct MaterialCells {
@@ -56,15 +54,7 @@ struct MaterialMesh {
   }
 };
 
-/// Cells around each vertex in compressed rows: cells[first[v]] ... cells[first[v + 1] - 1], ascending.
-struct VertexCells {
-  std::vector<std::uint32_t> first;
-  std::vector<CellId> cells;
-
-  [[nodiscard]] std::span<const CellId> of(VertexId v) const {
-    return {cells.data() + first[v], cells.data() + first[v + 1]};
-  }
-};
+/// The cells of all kinds around each vertex. Parallel.
 VertexCells cells_of_vertices(const MaterialMesh& mesh);
 
 /// The tets that are not background, with only the vertices they use; the order of both is kept.

@@ -238,8 +238,8 @@ TetNeighbours tet_neighbours(const TetNodes& tets, std::size_t vertex_count) {
   return neighbours;
 }
 
-VertexTets tets_of_vertices(const TetNodes& tets, std::size_t vertex_count) {
-  VertexTets around;
+VertexCells tets_of_vertices(const TetNodes& tets, std::size_t vertex_count) {
+  VertexCells around;
   around.first.assign(vertex_count + 1, 0);
   for_ranges(vertex_count, [&](std::size_t begin, std::size_t end) {
     for (const auto& tet : tets) {
@@ -251,13 +251,13 @@ VertexTets tets_of_vertices(const TetNodes& tets, std::size_t vertex_count) {
     }
   });
   sum_up(around.first);
-  around.tets.resize(4 * tets.size());
+  around.cells.resize(4 * tets.size());
   std::vector<std::uint32_t> next(around.first.begin(), around.first.end() - 1);
   for_ranges(vertex_count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = 0; t < tets.size(); ++t) {
       for (const VertexId v : tets[t]) {
         if (v >= begin && v < end) {
-          around.tets[next[v]++] = static_cast<TetId>(t);
+          around.cells[next[v]++] = static_cast<TetId>(t);
         }
       }
     }

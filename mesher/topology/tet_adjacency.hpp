@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesher/core/mesh.hpp"
@@ -29,12 +30,21 @@ void find_unknown_neighbours(const TetNodes& tets, std::size_t vertex_count, Tet
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetFace = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// Tets around each vertex in compressed rows: tets[first[v]] ... tets[first[v + 1] - 1], ascending.
-/// Parallel.
-struct VertexTets {
+/// A cell of a mesh; a tet's number as a cell is its TetId (see MaterialMesh).
+using CellId = std::uint32_t;
+
+/// The cells around each vertex in compressed rows: those of v are cells[first[v]] ... cells[first[v + 1] -
+/// 1], ascending.
+struct VertexCells {
   std::vector<std::uint32_t> first;
-  std::vector<TetId> tets;
+  std::vector<CellId> cells;
+
+  /// The star of a vertex.
+  [[nodiscard]] std::span<const CellId> of(VertexId v) const {
+    return {cells.data() + first[v], cells.data() + first[v + 1]};
+  }
 };
-VertexTets tets_of_vertices(const TetNodes& tets, std::size_t vertex_count);
+/// The tets around each vertex of a mesh of tets alone. Parallel.
+VertexCells tets_of_vertices(const TetNodes& tets, std::size_t vertex_count);
 
 }  // namespace cbc3d

@@ -81,11 +81,11 @@ TEST(TetAdjacency, StarsAreTheTetsWithTheVertex) {
     for (const VertexId v : tets[t]) wanted[v].push_back(t);
   }
   at_thread_counts([&] {
-    const VertexTets around = tets_of_vertices(tets, kVertices);
+    const VertexCells around = tets_of_vertices(tets, kVertices);
     ASSERT_EQ(around.first.size(), kVertices + 1);
     for (std::size_t v = 0; v < kVertices; ++v) {
-      EXPECT_EQ(std::vector<TetId>(around.tets.begin() + around.first[v],
-                                   around.tets.begin() + around.first[v + 1]),
+      EXPECT_EQ(std::vector<TetId>(around.cells.begin() + around.first[v],
+                                   around.cells.begin() + around.first[v + 1]),
                 wanted[v]);
     }
   });

@@ -5,8 +5,8 @@
 namespace cbc3d {
 
 void VertexStar::load(VertexId vertex, const std::vector<ClassId>& class_of_tet, ClassId outside) {
-  const TetId* const begin = around_.tets.data() + around_.first[vertex];
-  const TetId* const end = around_.tets.data() + around_.first[vertex + 1];
+  const TetId* const begin = around_.cells.data() + around_.first[vertex];
+  const TetId* const end = around_.cells.data() + around_.first[vertex + 1];
   members_.assign(begin, end);
   classes_.clear();
   adjacent_.assign(members_.size(), {});

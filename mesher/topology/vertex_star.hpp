@@ -23,7 +23,7 @@ using ClassId = std::uint16_t;
 /// once warm.
 class VertexStar {
  public:
-  VertexStar(const VertexTets& around, const TetNodes& tets, const TetNeighbours& neighbours)
+  VertexStar(const VertexCells& around, const TetNodes& tets, const TetNeighbours& neighbours)
       : around_(around), tets_(tets), neighbours_(neighbours) {}
 
   /// Loads the star of `vertex`. The outside of the mesh, where the star has faces towards it, counts as one
@@ -47,7 +47,7 @@ class VertexStar {
   bool is_manifold(ClassId of) { return split(of, true) <= 1 && split(of, false) <= 1; }
 
  private:
-  const VertexTets& around_;
+  const VertexCells& around_;
   const TetNodes& tets_;
   const TetNeighbours& neighbours_;
   std::vector<TetId> members_;

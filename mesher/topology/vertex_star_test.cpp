@@ -47,7 +47,7 @@ int pieces_by_flooding(const std::vector<ClassId>& classes, ClassId of, bool ins
 
 TEST(VertexStar, EveryPatternOfTwoClassesFallsIntoItsPieces) {
   const TetNodes tets = octants(8);
-  const VertexTets around = tets_of_vertices(tets, 7);
+  const VertexCells around = tets_of_vertices(tets, 7);
   const TetNeighbours neighbours = tet_neighbours(tets, 7);
   VertexStar star(around, tets, neighbours);
   for (unsigned pattern = 0; pattern < 256; ++pattern) {
@@ -72,7 +72,7 @@ TEST(VertexStar, EveryPatternOfTwoClassesFallsIntoItsPieces) {
 
 TEST(VertexStar, TheOutsideIsAMemberWhereTheStarIsOpen) {
   const TetNodes tets = octants(4);  // a half space
-  const VertexTets around = tets_of_vertices(tets, 7);
+  const VertexCells around = tets_of_vertices(tets, 7);
   const TetNeighbours neighbours = tet_neighbours(tets, 7);
   VertexStar star(around, tets, neighbours);
   star.load(0, {1, 1, 1, 1}, 0);

@@ -1,15 +1,17 @@
 #include "reports/charts/figures.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "mesher/core/atomic_file.hpp"
 #include "reports/charts/chart.hpp"
 #include "reports/results/columns.hpp"
-#include "reports/results/statistics.hpp"
+#include "reports/results/format_number.hpp"
+#include "reports/results/run_values.hpp"
 #include "reports/run/child_process.hpp"
-#include "reports/tables/table.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -17,43 +19,27 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kHistogramBins = 36;
 
-bool is_ok(const Json& result) {
-  return result.value("status", "") == "ok";
-}
-
-const Json* first_good(const std::vector<const Json*>& runs) {
-  const auto found = std::find_if(runs.begin(), runs.end(), [](const Json* run) { return is_ok(*run); });
-  return found == runs.end() ? nullptr : *found;
-}
+using metrics::metric_id;
+using metrics::MetricId;
 
 /// "cgal (9.2-165.9 deg, 518,509 elements)": as in the paper, the extremes and the count stand by the name.
-std::string histogram_name(const std::string& column, const Json& result) {
-  const Json lowest = figure(result, {"quality", "min_dihedral_deg"});
-  const Json highest = figure(result, {"quality", "max_dihedral_deg"});
-  double elements = 0;
-  for (const char* kind : {"tets", "pyramids", "wedges", "hexes"}) {
-    const Json count = figure(result, {"counts", kind});
-    elements += count.is_number() ? count.get<double>() : 0;
-  }
-  if (!lowest.is_number() || !highest.is_number()) {
+std::string histogram_name(const std::string& column, const JobResult& result) {
+  const auto& lowest = result.figures[metric_id("quality.min_dihedral_deg")];
+  const auto& highest = result.figures[metric_id("quality.max_dihedral_deg")];
+  if (!lowest || !highest) {
     return column;
   }
-  return column + " (" + format_number(lowest.get<double>(), 1) + "-" +
-         format_number(highest.get<double>(), 1) + " deg, " + format_number(elements, 0) + " elements)";
+  return column + " (" + format_number(*lowest, 1) + "-" + format_number(*highest, 1) + " deg, " +
+         format_number(result.figures[metric_id("elements")].value_or(0), 0) + " elements)";
 }
 
 /// Shares in percent of the angles in each step.
-std::vector<double> shares(const Json& histogram) {
-  std::vector<double> values;
-  double sum = 0;
-  for (const Json& count : histogram) {
-    values.push_back(count.is_number() ? count.get<double>() : 0);
-    sum += values.back();
-  }
-  for (double& value : values) {
+std::vector<double> shares(std::vector<double> histogram) {
+  const double sum = std::accumulate(histogram.begin(), histogram.end(), 0.0);
+  for (double& value : histogram) {
     value = sum > 0 ? 100 * value / sum : 0;
   }
-  return values;
+  return histogram;
 }
 
 Chart histogram_of(const std::string& case_name, const Columns& columns) {
@@ -66,37 +52,33 @@ Chart histogram_of(const std::string& case_name, const Columns& columns) {
     chart.categories.push_back(std::to_string(5 * bin));
   }
   for (const std::string& column : columns.names()) {
-    const Json* result = first_good(columns.runs(case_name, column));
-    const Json histogram =
-        result == nullptr ? Json() : figure(*result, {"quality", "dihedral_histogram_5deg"});
-    if (histogram.is_array() && histogram.size() == kHistogramBins) {
-      chart.series.push_back({histogram_name(column, *result), shares(histogram), {}, false});
+    const JobResult* result = first_good(columns.runs(case_name, column));
+    if (result != nullptr && result->dihedral_histogram.size() == kHistogramBins) {
+      chart.series.push_back(
+          {histogram_name(column, *result), shares(result->dihedral_histogram), {}, false});
     }
   }
   return chart;
 }
 
-/// Median of a figure over the good runs; NaN without any.
-double median_of(const std::vector<const Json*>& runs, const std::vector<std::string>& path) {
-  std::vector<double> values;
-  for (const Json* run : runs) {
-    const Json value = figure(*run, path);
-    if (is_ok(*run) && value.is_number()) {
-      values.push_back(value.get<double>());
-    }
-  }
-  return values.empty() ? kNone : median(values);
+/// Median of a metric over the good runs, in the unit in which it is shown; NaN without any.
+double median_or_none(const Runs& runs, MetricId id) {
+  return median_of(runs, shown_figure(id)).value_or(kNone);
 }
 
-/// A value of every case and column: the median of its runs.
-Chart comparison(const std::vector<Json>& results, const Columns& columns,
-                 const std::vector<std::string>& path) {
+/// A metric of every case and column: the median of its runs.
+Chart comparison(const std::vector<JobResult>& results, const Columns& columns, MetricId id) {
+  const metrics::Metric& metric = metrics::metric(id);
   Chart chart;
+  chart.title = metrics::words(metric);
+  chart.title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(chart.title.front())));
+  chart.y_title = title(metric);
+  chart.logarithmic = metric.logarithmic;
   chart.categories = case_names(results);
   for (const std::string& column : columns.names()) {
     Series series{column, {}, {}, false};
     for (const std::string& case_name : chart.categories) {
-      series.values.push_back(median_of(columns.runs(case_name, column), path));
+      series.values.push_back(median_or_none(columns.runs(case_name, column), id));
     }
     const bool any =
         std::any_of(series.values.begin(), series.values.end(), [](double v) { return std::isfinite(v); });
@@ -108,28 +90,45 @@ Chart comparison(const std::vector<Json>& results, const Columns& columns,
 }
 
 /// A column's name and, as a distance says nothing of them, how many labels its mesh lacks.
-std::string name_with_missing(const std::string& column, const std::vector<const Json*>& runs) {
-  const Json* run = first_good(runs);
-  const Json missing = run == nullptr ? Json() : figure(*run, {"summary", "missing_labels"});
-  return missing.is_array() && !missing.empty()
-             ? column + " (" + std::to_string(missing.size()) +
-                   (missing.size() == 1 ? " label missing)" : " labels missing)")
-             : column;
+std::string name_with_missing(const std::string& column, const Runs& runs) {
+  const JobResult* run = first_good(runs);
+  const double missing = run == nullptr ? 0 : run->figures[metric_id("summary.missing_labels")].value_or(0);
+  return missing > 0 ? column + " (" + format_number(missing, 0) +
+                           (missing == 1 ? " label missing)" : " labels missing)")
+                     : column;
 }
 
-/// Every mesher of a case in the plane of distance and another figure of summary, times `unit`.
-Scatter trade_off(const std::string& case_name, const Columns& columns, const std::string& key, double unit,
+/// An axis of a plane: a metric, times a factor.
+struct Axis {
+  MetricId id;
+  double factor = 1;
+};
+
+std::string axis_title(MetricId id) {
+  const metrics::Metric& metric = metrics::metric(id);
+  return std::string(words(metric)) + (metric.unit.empty() ? "" : " (" + std::string(metric.unit) + ")");
+}
+
+std::optional<double> limit_of(MetricId id) {
+  const metrics::Target& target = metrics::metric(id).target;
+  return target.limit == metrics::Limit::none ? std::nullopt : std::optional(target.value);
+}
+
+/// Every mesher of a case in the plane of distance and another figure.
+Scatter trade_off(const std::string& case_name, const Columns& columns, const Axis& y_axis,
                   bool logarithmic_y) {
-  constexpr double kLimitDiagonals = 1.1;
+  constexpr MetricId kDistance = metric_id("summary.hausdorff_diagonals");
   Scatter scatter;
-  scatter.x_title = "Hausdorff distance (the paper's), worst label (voxel diagonals)";
+  scatter.x_title = axis_title(kDistance);
+  scatter.y_title = axis_title(y_axis.id);
   scatter.logarithmic_x = true;
   scatter.logarithmic_y = logarithmic_y;
-  scatter.x_limit = kLimitDiagonals;
+  scatter.x_limit = limit_of(kDistance);
+  scatter.y_limit = limit_of(y_axis.id);
   for (const std::string& column : columns.names()) {
-    const std::vector<const Json*> runs = columns.runs(case_name, column);
-    const double x = median_of(runs, {"summary", "hausdorff_diagonals"});
-    const double y = unit * median_of(runs, {"summary", key});
+    const Runs runs = columns.runs(case_name, column);
+    const double x = median_or_none(runs, kDistance);
+    const double y = y_axis.factor * median_or_none(runs, y_axis.id);
     if (x > 0 && (y > 0 || (!logarithmic_y && y == 0))) {
       scatter.series.push_back({name_with_missing(column, runs), {{x, y}}});
     }
@@ -139,16 +138,15 @@ Scatter trade_off(const std::string& case_name, const Columns& columns, const st
 
 /// The two planes of a case; none where no mesh has a distance.
 void add_trade_offs(const std::string& case_name, const Columns& columns, std::vector<Figure>& figures) {
-  constexpr double kLimitDeg = 20, kThousands = 1e-3;
-  Scatter angle = trade_off(case_name, columns, "min_dihedral_deg", 1, false);
+  constexpr double kThousands = 1e-3;
+  Scatter angle = trade_off(case_name, columns, {metric_id("summary.min_dihedral_deg")}, false);
   angle.title = case_name + ": distance and smallest dihedral angle";
-  angle.y_title = "min dihedral angle (deg)";
-  angle.y_limit = kLimitDeg;
-  angle.note = "Better is up and left; dashed: 1.1 voxel diagonals, 20 degrees.";
-  Scatter count = trade_off(case_name, columns, "elements", kThousands, true);
+  angle.note = "Better is up and left; dashed: " + format_number(*angle.x_limit, 1) + " voxel diagonals, " +
+               format_number(*angle.y_limit, 0) + " degrees.";
+  Scatter count = trade_off(case_name, columns, {metric_id("summary.elements"), kThousands}, true);
   count.title = case_name + ": distance and number of elements";
-  count.y_title = "elements (thousands)";
-  count.note = "Better is down and left; dashed: 1.1 voxel diagonals.";
+  count.y_title += " (thousands)";
+  count.note = "Better is down and left; dashed: " + format_number(*count.x_limit, 1) + " voxel diagonals.";
   for (const auto& [name, scatter] : {std::pair("angle", &angle), std::pair("elements", &count)}) {
     if (!scatter->series.empty()) {
       figures.push_back(
@@ -157,42 +155,17 @@ void add_trade_offs(const std::string& case_name, const Columns& columns, std::v
   }
 }
 
-struct ComparisonPlan {
-  const char* name;
-  const char* title;
-  const char* unit;
-  std::vector<std::string> path;
-  bool logarithmic;
-};
-
 }  // namespace
 
-std::vector<Figure> result_figures(const std::vector<Json>& results) {
-  static const std::vector<ComparisonPlan> plans{
-      {"hausdorff",
-       "Hausdorff distance (the paper's: surface vertices and boundary voxels)",
-       "HD (mm)",
-       {"fidelity", "hausdorff_mm"},
-       false},
-      {"surface-distance",
-       "Surface Hausdorff distance",
-       "distance (mm)",
-       {"fidelity", "surface_hausdorff_mm"},
-       false},
-      {"time",
-       "Meshing time, end to end without reading and writing files",
-       "time (s)",
-       {"time_s", "mesh"},
-       true}};
+std::vector<Figure> result_figures(const std::vector<JobResult>& results) {
   const Columns columns(results);
   std::vector<Figure> figures;
-  for (const ComparisonPlan& plan : plans) {
-    Chart chart = comparison(results, columns, plan.path);
-    chart.title = plan.title;
-    chart.y_title = plan.unit;
-    chart.logarithmic = plan.logarithmic;
-    if (!chart.series.empty()) {
-      figures.push_back({plan.name, chart.title, bar_chart(chart)});
+  for (const MetricId id : metrics::all_metrics()) {
+    if (const std::string name(metrics::metric(id).chart); !name.empty()) {
+      const Chart chart = comparison(results, columns, id);
+      if (!chart.series.empty()) {
+        figures.push_back({name, chart.title, bar_chart(chart)});
+      }
     }
   }
   for (const std::string& case_name : case_names(results)) {

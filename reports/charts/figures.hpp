@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesher/core/terminal_progress.hpp"
-#include "reports/results/result.hpp"
+#include "reports/results/job_result.hpp"
 
 namespace cbc3d::reports {
 
@@ -18,9 +18,9 @@ struct Figure {
 };
 
 /// For every case the distribution of the dihedral angles in steps of 5 degrees with all meshers; over the
-/// cases the Hausdorff distance, the surface distance and the time; for every case all meshers in the planes
+/// cases every metric that names a chart in the catalog; for every case all meshers in the planes
 /// of distance against smallest dihedral angle and against element count.
-std::vector<Figure> result_figures(const std::vector<Json>& results);
+std::vector<Figure> result_figures(const std::vector<JobResult>& results);
 
 /// Writes each figure as NAME.svg into `folder`, which is made, and as NAME.png where rsvg-convert is there;
 /// one line says so where it is not.

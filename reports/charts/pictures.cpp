@@ -3,8 +3,8 @@
 #include <set>
 
 #include "reports/charts/picture_kinds.hpp"
+#include "reports/results/format_number.hpp"
 #include "reports/run/child_process.hpp"
-#include "reports/tables/table.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -14,27 +14,23 @@ constexpr double kTimeoutS = 180;
 constexpr std::int64_t kMemoryLimitBytes = std::int64_t{8} << 30;
 constexpr int kPicturesPerMesh = 4;
 
-std::string caption_of(const Json& result) {
-  std::string text = result.value("case", "") + "  -  " + result.value("mesher", "");
-  double elements = 0;
-  for (const char* kind : {"tets", "pyramids", "wedges", "hexes"}) {
-    const Json count = figure(result, {"counts", kind});
-    elements += count.is_number() ? count.get<double>() : 0;
-  }
-  return text + "  -  " + format_number(elements, 0) + " elements";
+std::string caption_of(const JobResult& result) {
+  const double elements = result.figures[metrics::metric_id("elements")].value_or(0);
+  return result.case_name + "  -  " + result.mesher + "  -  " + format_number(elements, 0) + " elements";
 }
 
 /// Every kind of picture of a mesh, and small copies for the report in figures/small. `mixed`: a mesh of
 /// mixed elements to put beside it; null: none.
-ChildResult draw(const fs::path& out_dir, const Json& result, const Json* mixed, const fs::path& bin_dir) {
-  const std::string stem = picture_stem(result.value("case", ""), result.value("mesher", ""));
+ChildResult draw(const fs::path& out_dir, const JobResult& result, const JobResult* mixed,
+                 const fs::path& bin_dir) {
+  const std::string stem = picture_stem(result.case_name, result.mesher);
   std::vector<std::string> argv{"xvfb-run",
                                 "-a",
                                 "--server-args=-screen 0 1280x1024x24",
                                 bin_dir / "cbc3d-picture",
-                                out_dir / result["mesh_file"].get<std::string>(),
+                                out_dir / result.mesh_file,
                                 "--image",
-                                figure(result, {"provenance", "image_file"}).get<std::string>(),
+                                result.image_file,
                                 "--caption",
                                 caption_of(result),
                                 "--small",
@@ -46,26 +42,23 @@ ChildResult draw(const fs::path& out_dir, const Json& result, const Json* mixed,
                   {std::string("--") + kind.name, out_dir / "figures" / (stem + "-" + kind.name + ".png")});
     } else if (mixed != nullptr) {
       argv.insert(argv.end(), {"--beside", out_dir / "figures" / (stem + "-beside.png"), "--mixed-mesh",
-                               out_dir / (*mixed)["mesh_file"].get<std::string>(), "--mixed-caption",
-                               caption_of(*mixed)});
+                               out_dir / mixed->mesh_file, "--mixed-caption", caption_of(*mixed)});
     }
   }
   return run_child({argv, 0, kTimeoutS, kMemoryLimitBytes});
 }
 
-bool can_be_drawn(const Json& result) {
-  return result.value("status", "") == "ok" && figure(result, {"mesh_file"}).is_string() &&
-         figure(result, {"provenance", "image_file"}).is_string();
+bool can_be_drawn(const JobResult& result) {
+  return result.is_ok() && !result.mesh_file.empty() && !result.image_file.empty();
 }
 
 /// The mesh of mixed elements of the same case, for the mesher with the paper's settings.
-const Json* mixed_partner(const std::vector<Json>& results, const Json& result) {
-  if (result.value("mesher", "") != "cbc3d-paper") {
+const JobResult* mixed_partner(const std::vector<JobResult>& results, const JobResult& result) {
+  if (result.mesher != "cbc3d-paper") {
     return nullptr;
   }
-  for (const Json& other : results) {
-    if (other["case"] == result["case"] && other.value("mesher", "") == "cbc3d-mixed" &&
-        can_be_drawn(other)) {
+  for (const JobResult& other : results) {
+    if (other.case_name == result.case_name && other.mesher == "cbc3d-mixed" && can_be_drawn(other)) {
       return &other;
     }
   }
@@ -88,7 +81,7 @@ std::string failure_text(const ChildResult& child) {
 
 }  // namespace
 
-int draw_pictures(const fs::path& out_dir, const std::vector<Json>& results, const fs::path& bin_dir,
+int draw_pictures(const fs::path& out_dir, const std::vector<JobResult>& results, const fs::path& bin_dir,
                   TerminalProgress& progress) {
   if (!fs::exists(bin_dir / "cbc3d-picture")) {
     progress.line("no pictures: cbc3d-picture is not built; install VTK's rendering modules and build again");
@@ -96,8 +89,8 @@ int draw_pictures(const fs::path& out_dir, const std::vector<Json>& results, con
   }
   fs::create_directories(out_dir / "figures" / "small");
   std::set<std::pair<std::string, std::string>> drawn;
-  for (const Json& result : results) {
-    const std::pair key{result.value("case", ""), result.value("mesher", "")};
+  for (const JobResult& result : results) {
+    const std::pair key{result.case_name, result.mesher};
     if (!can_be_drawn(result) || drawn.contains(key)) {
       continue;
     }

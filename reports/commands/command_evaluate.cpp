@@ -27,10 +27,10 @@ struct EvaluateCommandOptions {
   metrics::EvaluateOptions metrics;
 };
 
-/// The figures of a section that are single numbers or flags, a line each.
-void print_section(const nlohmann::json& evaluation, const std::string& section) {
+/// The figures of a section that are single numbers or flags, one per line.
+void print_section(const std::string& section, const nlohmann::json& figures) {
   std::cout << section << '\n';
-  for (const auto& [key, value] : evaluation.at(section).items()) {
+  for (const auto& [key, value] : figures.items()) {
     if (!value.is_structured() ||
         (value.is_array() && value.size() <= 8 && !value.empty() && !value[0].is_structured())) {
       std::cout << "  " << key << ": " << value.dump() << '\n';
@@ -97,9 +97,9 @@ int evaluate(const EvaluateCommandOptions& options) {
     write_json(options.json, evaluation);
   }
   if (!options.quiet) {
-    for (const char* section : {"counts", "quality", "fidelity", "topology", "summary", "shape"}) {
-      if (evaluation.contains(section)) {
-        print_section(evaluation, section);
+    for (const auto& [section, figures] : evaluation.items()) {
+      if (figures.is_object() && section != "image") {
+        print_section(section, figures);
       }
     }
     std::cout << "faults: " << evaluation.at("faults").size() << '\n';

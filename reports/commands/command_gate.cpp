@@ -17,16 +17,7 @@ struct GateOptions {
   bool quiet = false;
 };
 
-std::vector<Json> results_of(const std::string& folder) {
-  const std::filesystem::path file = std::filesystem::path(folder) / "results.jsonl";
-  std::vector<Json> results = read_results(file);
-  if (results.empty()) {
-    throw InputError("'" + file.string() + "': no results; name the --out folder of a run");
-  }
-  return results;
-}
-
-int update(const GateOptions& options, const std::vector<Json>& results) {
+int update(const GateOptions& options, const std::vector<JobResult>& results) {
   const Json former = std::filesystem::exists(options.baseline) ? read_baseline(options.baseline) : Json();
   write_text_file(options.baseline, make_baseline(results, former, options.reason).dump(1) + "\n");
   if (!options.quiet) {
@@ -40,8 +31,8 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-/// Tells GitHub, where it asks to be told.
-void tell_github(const Verdict& verdict) {
+/// Writes GitHub's annotations and step summary, where the environment asks for them.
+void report_to_github(const Verdict& verdict) {
   if (is_set("GITHUB_ACTIONS")) {
     std::cout << to_annotations(verdict);
   }
@@ -55,7 +46,7 @@ void tell_github(const Verdict& verdict) {
 }
 
 int gate(const GateOptions& options) {
-  const std::vector<Json> results = results_of(options.folder);
+  const std::vector<JobResult> results = results_of(options.folder);
   if (!options.reason.empty()) {
     return update(options, results);
   }
@@ -63,7 +54,7 @@ int gate(const GateOptions& options) {
   if (!options.junit.empty()) {
     write_text_file(options.junit, to_junit(verdict));
   }
-  tell_github(verdict);
+  report_to_github(verdict);
   if (!options.quiet || !verdict.holds()) {
     std::cout << to_text(verdict);
   }

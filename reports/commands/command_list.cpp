@@ -4,6 +4,7 @@
 
 #include "cases/core/case.hpp"
 #include "cases/manifest.hpp"
+#include "metrics/catalog.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/commands/selection.hpp"
 #include "reports/run/workplace.hpp"
@@ -26,7 +27,7 @@ void list_meshers(const ListOptions& options) {
               << (mesher.multithreaded ? "" : ", sequential")
               << (mesher.deterministic ? "" : ", not deterministic")
               << (availability.available ? "" : "\n    unavailable: " + availability.reason) << '\n';
-    for (const baselines::ParameterSpec& parameter : mesher.parameters) {
+    for (const baselines::ParameterSpec& parameter : mesher.parameters.in(bin_dir())) {
       std::cout << "    " << parameter.key << " = " << parameter.default_value
                 << (parameter.unit.empty() ? "" : " " + parameter.unit) << ": " << parameter.description
                 << '\n';
@@ -72,10 +73,10 @@ void list_suites(const ListOptions& options) {
 
 Command add_list_command(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* parser = app.add_subcommand("list", "Lists the meshers, the cases or the suites");
-  parser->add_option("WHAT", options->what, "meshers, cases or suites")
+  CLI::App* parser = app.add_subcommand("list", "Lists the meshers, the cases, the suites or the metrics");
+  parser->add_option("WHAT", options->what, "meshers, cases, suites or metrics")
       ->required()
-      ->check(CLI::IsMember({"meshers", "cases", "suites"}));
+      ->check(CLI::IsMember({"meshers", "cases", "suites", "metrics"}));
   parser->add_option("--data", options->data, "folder with case images (may be given again)")
       ->allow_extra_args(false);
   parser
@@ -91,8 +92,10 @@ Command add_list_command(CLI::App& app) {
               list_meshers(*options);
             } else if (options->what == "cases") {
               list_cases(*options);
-            } else {
+            } else if (options->what == "suites") {
               list_suites(*options);
+            } else {
+              std::cout << metrics::catalog_text();
             }
             return 0;
           }};

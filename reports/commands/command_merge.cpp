@@ -3,8 +3,8 @@
 
 #include "mesher/core/error.hpp"
 #include "reports/commands/commands.hpp"
+#include "reports/results/job_result.hpp"
 #include "reports/run/merge.hpp"
-#include "reports/run/runner.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -17,7 +17,8 @@ struct MergeOptions {
 };
 
 int merge(const MergeOptions& options) {
-  const std::vector<Json> results = merge_runs({options.folders.begin(), options.folders.end()}, options.out);
+  const std::vector<JobResult> results =
+      decode_lines(merge_runs({options.folders.begin(), options.folders.end()}, options.out));
   if (!options.quiet) {
     std::cout << summary_line(results) << '\n';
   }

@@ -8,9 +8,9 @@
 #include "reports/commands/selection.hpp"
 #include "reports/output/html.hpp"
 #include "reports/output/output.hpp"
-#include "reports/run/runner.hpp"
 #include "reports/run/workplace.hpp"
-#include "reports/sweep/sweep.hpp"
+#include "reports/tables/microbenchmark_table.hpp"
+#include "reports/tables/tables.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -26,14 +26,10 @@ int write_report(const ReportOptions& options) {
   require_writable(options.out);
   const std::filesystem::path folder = options.folder;
   Report report;
-  report.results = read_results(folder / "results.jsonl");
-  if (report.results.empty()) {
-    throw InputError("'" + (folder / "results.jsonl").string() +
-                     "': no results; name the --out folder of a run");
-  }
-  report.cases = cases_of(options.manifests);
+  report.results = results_of(folder);
+  const std::vector<cases::Case> cases = cases_of(options.manifests);
   report.title = options.title.empty() ? "CBC3D: comparison of meshers" : options.title;
-  report.tables = all_tables(folder, report.results, report.cases);
+  report.tables = build_tables({report.results, cases, folder});
   if (!options.microbenchmarks.empty()) {
     report.tables.push_back(microbenchmark_table(read_microbenchmarks(options.microbenchmarks)));
   }

@@ -26,12 +26,12 @@ int run(RunCommandOptions options) {
   options.run.shard = parse_shard(options.shard);
   const Bench bench = make_bench(options.selection, options.run.out_dir);
   TerminalProgress progress(options.output.quiet);
-  const std::vector<Json> results = run_jobs(bench, options.run, progress);
+  const std::vector<JobResult> results = decode_lines(run_jobs(bench, options.run, progress));
   write_output(options.run.out_dir, results, cases_of(options.selection.manifests), bench.bin_dir,
                options.output, progress);
   std::cout << summary_line(results) << '\n';
-  const bool all_ok = std::all_of(results.begin(), results.end(),
-                                  [](const Json& result) { return result.value("status", "") == "ok"; });
+  const bool all_ok =
+      std::all_of(results.begin(), results.end(), [](const JobResult& result) { return result.is_ok(); });
   return options.strict && !all_ok ? kExitJobFailed : kExitSuccess;
 }
 

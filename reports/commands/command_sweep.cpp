@@ -7,7 +7,7 @@
 #include "reports/commands/selection.hpp"
 #include "reports/output/output.hpp"
 #include "reports/sweep/sweep.hpp"
-#include "reports/tables/tables.hpp"
+#include "reports/tables/microbenchmark_table.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -29,7 +29,7 @@ int sweep(SweepOptions options) {
   const Json microbenchmarks = read_microbenchmarks(options.microbenchmarks);  // complains before the work
   const Bench bench = make_bench(options.selection, options.run.out_dir);
   TerminalProgress progress(options.output.quiet);
-  const std::vector<Json> results = run_jobs(bench, options.run, progress);
+  const std::vector<JobResult> results = decode_lines(run_jobs(bench, options.run, progress));
   write_text_file(options.run.out_dir / "sweep.json", to_json(sweep_points(results)).dump(1) + "\n");
   if (!options.microbenchmarks.empty()) {
     write_text_file(options.run.out_dir / "microbenchmarks.json", microbenchmarks.dump(1) + "\n");

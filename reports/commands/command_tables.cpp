@@ -17,11 +17,7 @@ struct TablesOptions {
 };
 
 int write_again(const TablesOptions& options) {
-  const std::filesystem::path file = std::filesystem::path(options.folder) / "results.jsonl";
-  const std::vector<Json> results = read_results(file);
-  if (results.empty()) {
-    throw InputError("'" + file.string() + "': no results; name the --out folder of a run");
-  }
+  const std::vector<JobResult> results = results_of(options.folder);
   TerminalProgress progress(options.output.quiet);
   write_output(options.folder, results, cases::load_cases(manifest_dir()), bin_dir(), options.output,
                progress);

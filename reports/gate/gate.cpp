@@ -3,32 +3,40 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include "mesher/core/error.hpp"
 #include "reports/gate/gate_job.hpp"
+#include "reports/results/format_number.hpp"
 #include "reports/run/provenance.hpp"
-#include "reports/tables/table.hpp"
 
 namespace cbc3d::reports {
 namespace {
 namespace fs = std::filesystem;
 
+using metrics::metric;
+using metrics::Metric;
+using metrics::MetricId;
+
 constexpr const char* kFormat = "cbc3d-baseline-1";
 constexpr double kUnbounded = 1e9;  ///< severity of what has no tolerance
 
-/// A figure falls when it is worse by more than both. "counts" is for meshers that are not deterministic.
-struct ToleranceClass {
-  const char* name;
-  double relative, absolute;
-};
-constexpr ToleranceClass kToleranceClasses[] = {
-    {"counts", 0.05, 10},   {"angle", 0.01, 0.5},  {"jacobian", 0.02, 0.005}, {"distance", 0.05, 0.01},
-    {"dice", 0.002, 0.002}, {"volume", 0.05, 0.1}, {"memory", 0.5, 16777216}, {"time", 0.4, 0.25}};
+/// The classes of tolerance of the catalog, each once. What is exact needs none.
+std::vector<const metrics::Tolerance*> tolerance_classes() {
+  std::vector<const metrics::Tolerance*> classes;
+  for (const MetricId id : gated_metrics()) {
+    const metrics::Tolerance* gate = metric(id).gate;
+    if (gate != &metrics::kExact && std::find(classes.begin(), classes.end(), gate) == classes.end()) {
+      classes.push_back(gate);
+    }
+  }
+  return classes;
+}
 
 Json default_tolerances() {
   Json tolerances;
-  for (const ToleranceClass& c : kToleranceClasses) {
-    tolerances[c.name] = {{"relative", c.relative}, {"absolute", c.absolute}};
+  for (const metrics::Tolerance* c : tolerance_classes()) {
+    tolerances[std::string(c->name)] = {{"relative", c->relative}, {"absolute", c->absolute}};
   }
   return tolerances;
 }
@@ -40,9 +48,7 @@ Json default_tolerances() {
 void check_tolerances(const Json& tolerances, const fs::path& file) {
   for (const auto& [name, value] : tolerances.items()) {
     const std::string key = "tolerances." + name;
-    const bool known = std::any_of(std::begin(kToleranceClasses), std::end(kToleranceClasses),
-                                   [&](const ToleranceClass& c) { return c.name == name; });
-    if (!known) {
+    if (!default_tolerances().contains(name)) {
       fail(file, key, "is no class of tolerance; there are " + default_tolerances().dump());
     }
     for (const char* kind : {"relative", "absolute"}) {
@@ -75,9 +81,7 @@ void check_job(const Json& job, const std::string& key, const fs::path& file) {
           "a list of labels");
   require("figures", figure(job, {"figures"}).is_object(), "an object of numbers");
   for (const auto& [name, value] : job["figures"].items()) {
-    const auto& known = gate_figures();
-    const bool is_known =
-        std::any_of(known.begin(), known.end(), [&](const GateFigure& f) { return f.name == name; });
+    const bool is_known = find_gated_metric(name).has_value();
     if (!is_known || !value.is_number()) {
       fail(file, key + ".figures." + name,
            is_known ? "is " + value.dump() + "; give a number" : "is no figure of the gate; remove it");
@@ -86,35 +90,40 @@ void check_job(const Json& job, const std::string& key, const fs::path& file) {
 }
 
 Json baseline_job(const GateJob& job) {
+  std::map<std::string, double> figures;
+  for (const MetricId id : gated_metrics()) {
+    if (job.figures[id]) {
+      figures[std::string(metric(id).key)] = *job.figures[id];
+    }
+  }
   Json entry = job.identity;
   entry["deterministic"] = job.deterministic;
   entry["missing_labels"] = job.missing_labels;
-  entry["figures"] = job.figures;
+  entry["figures"] = figures;
   return entry;
 }
 
-std::string with_unit(double value, const GateFigure& figure) {
-  const std::string unit = figure.unit;
-  if (unit == "bytes") {
-    return format_number(value / 1e6, 1) + " MB";
-  }
+/// "1.5000 mm": a value of a result line in the unit in which it is shown.
+std::string with_unit(double value, const Metric& metric) {
+  const double shown = metric.scale * value;
   const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
-  return format_number(value, whole ? 0 : 4) + (unit.empty() ? "" : " " + unit);
+  const int decimals = metric.scale != 1 ? 1 : whole ? 0 : 4;
+  return format_number(shown, decimals) + (metric.unit.empty() ? "" : " " + std::string(metric.unit));
 }
 
 /// Compares one figure. `allowed`: the change that is let pass.
-Check check_figure(const std::string& job, const GateFigure& figure, double was, double is, double allowed) {
+Check check_figure(const std::string& job, const Metric& metric, double was, double is, double allowed) {
   const double change = is - was;
-  const double worse = figure.worse == Worse::lower   ? -change
-                       : figure.worse == Worse::other ? std::abs(change)
-                                                      : change;
-  Check check{job, figure.name, worse > allowed, -worse > allowed, 0, ""};
+  const double worse = metric.worse == metrics::Worse::lower    ? -change
+                       : metric.worse == metrics::Worse::higher ? change
+                                                                : std::abs(change);
+  Check check{job, std::string(metric.key), worse > allowed, -worse > allowed, 0, ""};
   check.severity = allowed > 0 ? worse / allowed : kUnbounded + worse;
   const std::string sign = change > 0 ? "+" : "";
-  check.text = std::string(figure.words) + " was " + with_unit(was, figure) + ", is " +
-               with_unit(is, figure) + " (" + sign + with_unit(change, figure) +
+  check.text = std::string(words(metric)) + " was " + with_unit(was, metric) + ", is " +
+               with_unit(is, metric) + " (" + sign + with_unit(change, metric) +
                (was != 0 ? ", " + sign + format_number(100 * change / std::abs(was), 1) + " %" : "") +
-               "; allowed " + with_unit(allowed, figure) + ")";
+               "; allowed " + with_unit(allowed, metric) + ")";
   return check;
 }
 
@@ -122,13 +131,12 @@ Check fallen(const std::string& job, const std::string& figure, const std::strin
   return {job, figure, true, false, 2 * kUnbounded, text};
 }
 
-double allowed_change(const GateFigure& figure, double was, bool deterministic, const Json& tolerances) {
-  const std::string name = figure.tolerance;
-  if (name == "exact" || (name == "counts" && deterministic)) {
+double allowed_change(const Metric& metric, double was, bool deterministic, const Json& tolerances) {
+  if (metric.gate == &metrics::kExact || (metric.gate == &metrics::kCounts && deterministic)) {
     return 0;
   }
-  return std::max(tolerances[name]["relative"].get<double>() * std::abs(was),
-                  tolerances[name]["absolute"].get<double>());
+  const Json& tolerance = tolerances.at(std::string(metric.gate->name));
+  return std::max(tolerance["relative"].get<double>() * std::abs(was), tolerance["absolute"].get<double>());
 }
 
 Check check_labels(const GateJob& job, const Json& entry) {
@@ -143,6 +151,22 @@ Check check_labels(const GateJob& job, const Json& entry) {
     return {job.name, "labels", false, false, 0, "every label that was in the mesh is"};
   }
   return fallen(job.name, "labels", "label " + lost + " was in the mesh and is not any more");
+}
+
+void compare_figures(const GateJob& job, const Json& figures, const Json& tolerances, Verdict& verdict) {
+  for (const MetricId id : gated_metrics()) {
+    const Metric& row = metric(id);
+    const std::string key(row.key);
+    if (!figures.contains(key)) {
+      continue;
+    }
+    const double was = figures[key].get<double>();
+    verdict.checks.push_back(
+        job.figures[id] ? check_figure(job.name, row, was, *job.figures[id],
+                                       allowed_change(row, was, job.deterministic, tolerances))
+                        : fallen(job.name, key,
+                                 std::string(words(row)) + " was " + with_unit(was, row) + ", is not there"));
+  }
 }
 
 void compare_job(const GateJob& job, const Json& entry, const Json& tolerances, Verdict& verdict) {
@@ -164,22 +188,13 @@ void compare_job(const GateJob& job, const Json& entry, const Json& tolerances, 
                                  : fallen(job.name, "repeats", job.first_difference));
   }
   verdict.checks.push_back(check_labels(job, entry));
-  for (const GateFigure& figure : gate_figures()) {
-    const auto is = job.figures.find(figure.name);
-    const Json& figures = entry["figures"];
-    if (!figures.contains(figure.name)) {
-      continue;
-    }
-    const double was = figures[figure.name].get<double>();
-    if (is == job.figures.end()) {
-      verdict.checks.push_back(
-          fallen(job.name, figure.name,
-                 std::string(figure.words) + " was " + with_unit(was, figure) + ", is not there"));
-      continue;
-    }
-    verdict.checks.push_back(check_figure(job.name, figure, was, is->second,
-                                          allowed_change(figure, was, job.deterministic, tolerances)));
-  }
+  compare_figures(job, entry["figures"], tolerances, verdict);
+}
+
+/// As GateJob::name.
+std::string name_of(const Json& entry) {
+  return gate_job_name(entry["case"].get<std::string>(), entry["mesher"].get<std::string>(),
+                       entry["threads"].get<int>());
 }
 
 }  // namespace
@@ -221,7 +236,7 @@ Json read_baseline(const fs::path& file) {
   return baseline;
 }
 
-Json make_baseline(const std::vector<Json>& results, const Json& former, const std::string& reason) {
+Json make_baseline(const std::vector<JobResult>& results, const Json& former, const std::string& reason) {
   Json baseline;
   baseline["format"] = kFormat;
   baseline["history"] = figure(former, {"history"}).is_array() ? former["history"] : Json::array();
@@ -242,11 +257,11 @@ Json make_baseline(const std::vector<Json>& results, const Json& former, const s
   return baseline;
 }
 
-Verdict compare(const std::vector<Json>& results, const Json& baseline) {
+Verdict compare(const std::vector<JobResult>& results, const Json& baseline) {
   const std::vector<GateJob> jobs = gate_jobs(results);
   Verdict verdict;
   for (const Json& entry : baseline["jobs"]) {
-    const std::string name = gate_job_name(entry);
+    const std::string name = name_of(entry);
     const auto job = std::find_if(jobs.begin(), jobs.end(),
                                   [&](const GateJob& candidate) { return candidate.name == name; });
     if (job == jobs.end()) {
@@ -258,7 +273,7 @@ Verdict compare(const std::vector<Json>& results, const Json& baseline) {
   for (const GateJob& job : jobs) {
     const Json& entries = baseline["jobs"];
     if (std::none_of(entries.begin(), entries.end(),
-                     [&](const Json& entry) { return gate_job_name(entry) == job.name; })) {
+                     [&](const Json& entry) { return name_of(entry) == job.name; })) {
       verdict.notes.push_back(job.name + ": not in the baseline; --update takes it in");
     }
   }

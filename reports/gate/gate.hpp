@@ -3,8 +3,9 @@
 // A baseline is a JSON file:
 // {"format": "cbc3d-baseline-1",
 //  "history": [{"utc": "...", "git_commit": "...", "reason": "why the figures changed"}],    newest last
-//  "tolerances": {"distance": {"relative": 0.05, "absolute": 0.01}, ...},    see kToleranceClasses in
-//  gate.cpp "jobs": [{"case": "...", "mesher": "...", "threads": 1, "parameters": {}, "deterministic": true,
+//  "tolerances": {"distance": {"relative": 0.05, "absolute": 0.01}, ...},    over those of
+//  metrics/catalog.hpp "jobs": [{"case": "...", "mesher": "...", "threads": 1, "parameters": {},
+//  "deterministic": true,
 //            "missing_labels": [], "figures": {"counts.tets": 123, ...}}]}
 // Repeats of a job are one entry: the figures of deterministic meshers must be the same in all of them, time
 // and memory are the smallest, the others the median. "time_ratio" is CPU time over that of the fixed piece
@@ -16,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/results/result.hpp"
+#include "reports/results/job_result.hpp"
 
 namespace cbc3d::reports {
 
@@ -42,9 +43,9 @@ Json read_baseline(const std::filesystem::path& file);
 
 /// A baseline of a run's good jobs. `former` (may be null) gives its tolerances and history. Throws
 /// InputError when a job of the run is not ok, or its repeats differ although its mesher is deterministic.
-Json make_baseline(const std::vector<Json>& results, const Json& former, const std::string& reason);
+Json make_baseline(const std::vector<JobResult>& results, const Json& former, const std::string& reason);
 
-Verdict compare(const std::vector<Json>& results, const Json& baseline);
+Verdict compare(const std::vector<JobResult>& results, const Json& baseline);
 
 /// JUnit's XML, a test case for every check.
 std::string to_junit(const Verdict& verdict);

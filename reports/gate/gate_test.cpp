@@ -40,12 +40,16 @@ std::vector<Json> good_run() {
   return {good_line(0), good_line(1)};
 }
 
+Verdict compare_lines(const std::vector<Json>& lines, const Json& baseline) {
+  return compare(decode_lines(lines), baseline);
+}
+
 Json baseline() {
-  return make_baseline(good_run(), Json(), "the first");
+  return make_baseline(decode_lines(good_run()), Json(), "the first");
 }
 
 TEST(Gate, HoldsForTheSameRun) {
-  const Verdict verdict = compare(good_run(), baseline());
+  const Verdict verdict = compare_lines(good_run(), baseline());
   EXPECT_TRUE(verdict.holds()) << to_text(verdict);
   EXPECT_GT(verdict.checks.size(), 12U);
 }
@@ -63,7 +67,7 @@ TEST_P(PlantedRegression, Falls) {
   for (Json& line : run) {
     line[Json::json_pointer(GetParam().pointer)] = GetParam().value;
   }
-  const Verdict verdict = compare(run, baseline());
+  const Verdict verdict = compare_lines(run, baseline());
   ASSERT_EQ(verdict.fallen(), 1U) << to_text(verdict);
   EXPECT_TRUE(verdict.checks[0].fell);
   EXPECT_NE(to_text(verdict).find(GetParam().words), std::string::npos) << to_text(verdict);
@@ -96,7 +100,7 @@ TEST(Gate, LetsPassWhatIsWithinBothTolerances) {
     line["peak_rss_bytes"] = 140'000'000;
     line["time_s"]["cpu"] = 1.35;
   }
-  EXPECT_TRUE(compare(run, baseline()).holds()) << to_text(compare(run, baseline()));
+  EXPECT_TRUE(compare_lines(run, baseline()).holds()) << to_text(compare_lines(run, baseline()));
 }
 
 TEST(Gate, AMachineHalfAsFastIsNoRegression) {
@@ -105,17 +109,17 @@ TEST(Gate, AMachineHalfAsFastIsNoRegression) {
     line["time_s"]["cpu"] = 2.0;
     line["time_s"]["reference_cpu"] = 0.04;
   }
-  EXPECT_TRUE(compare(run, baseline()).holds());
+  EXPECT_TRUE(compare_lines(run, baseline()).holds());
 }
 
 TEST(Gate, RepeatsOfADeterministicMesherMustBeTheSame) {
   std::vector<Json> run = good_run();
   run[1]["mesh_sha256"] = "bb";
-  const Verdict verdict = compare(run, baseline());
+  const Verdict verdict = compare_lines(run, baseline());
   EXPECT_EQ(verdict.fallen(), 1U);
   EXPECT_NE(to_text(verdict).find("mesh_sha256 is \"aa\" in repeat 0 and \"bb\" in repeat 1"),
             std::string::npos);
-  EXPECT_THROW(make_baseline(run, Json(), "no"), InputError);
+  EXPECT_THROW(make_baseline(decode_lines(run), Json(), "no"), InputError);
 }
 
 TEST(Gate, CountsOfOtherMeshersHaveATolerance) {
@@ -124,16 +128,16 @@ TEST(Gate, CountsOfOtherMeshersHaveATolerance) {
     line["provenance"]["mesher_deterministic"] = false;
     line["counts"]["tets"] = 1000;
   }
-  const Json free = make_baseline(run, Json(), "free");
+  const Json free = make_baseline(decode_lines(run), Json(), "free");
   run[1]["mesh_sha256"] = "bb";
   for (Json& line : run) {
     line["counts"]["tets"] = 1040;
   }
-  EXPECT_TRUE(compare(run, free).holds()) << to_text(compare(run, free));
+  EXPECT_TRUE(compare_lines(run, free).holds()) << to_text(compare_lines(run, free));
   for (Json& line : run) {
     line["counts"]["tets"] = 1060;
   }
-  EXPECT_FALSE(compare(run, free).holds());
+  EXPECT_FALSE(compare_lines(run, free).holds());
 }
 
 TEST(Gate, TheWorstComesFirstAndBetterIsSaid) {
@@ -143,7 +147,7 @@ TEST(Gate, TheWorstComesFirstAndBetterIsSaid) {
     line["peak_rss_bytes"] = 1'000'000'000;
     line["quality"]["min_dihedral_deg"] = 20.0;
   }
-  const Verdict verdict = compare(run, baseline());
+  const Verdict verdict = compare_lines(run, baseline());
   ASSERT_EQ(verdict.fallen(), 2U);
   EXPECT_EQ(verdict.checks[0].figure, "peak_rss_bytes");
   EXPECT_EQ(verdict.checks[1].figure, "fidelity.hausdorff_mm");
@@ -156,7 +160,7 @@ TEST(Gate, JobsThatAreMissingFallAndNewOnesAreNoted) {
   for (Json& line : run) {
     line["threads"] = 2;
   }
-  const Verdict verdict = compare(run, baseline());
+  const Verdict verdict = compare_lines(run, baseline());
   EXPECT_EQ(verdict.fallen(), 1U);
   EXPECT_EQ(verdict.checks[0].text, "is in the baseline and was not run");
   ASSERT_EQ(verdict.notes.size(), 1U);
@@ -165,10 +169,18 @@ TEST(Gate, JobsThatAreMissingFallAndNewOnesAreNoted) {
 TEST(Gate, AnUpdateKeepsTolerancesAndHistory) {
   Json former = baseline();
   former["tolerances"]["time"]["relative"] = 0.1;
-  const Json next = make_baseline(good_run(), former, "better angles");
+  const Json next = make_baseline(decode_lines(good_run()), former, "better angles");
   EXPECT_EQ(next["tolerances"]["time"]["relative"], 0.1);
   ASSERT_EQ(next["history"].size(), 2U);
   EXPECT_EQ(next["history"][1]["reason"], "better angles");
+}
+
+TEST(Gate, EveryToleranceOfTheCatalogIsThere) {
+  const Json tolerances = baseline()["tolerances"];
+  EXPECT_EQ(tolerances["distance"]["relative"], 0.05);
+  EXPECT_EQ(tolerances["memory"]["absolute"], 16777216);
+  EXPECT_FALSE(tolerances.contains("exact"));
+  EXPECT_EQ(tolerances.size(), 8U);
 }
 
 TEST(Gate, BadBaselinesAreRefusedByFileAndKey) {
@@ -204,7 +216,7 @@ TEST(Gate, BadBaselinesAreRefusedByFileAndKey) {
   EXPECT_THROW(read_baseline(folder.path() / "none.json"), InputError);
 }
 
-TEST(Gate, TheCommandTellsJUnitAndGitHub) {
+TEST(Gate, TheCommandWritesForJUnitAndGitHub) {
   const TemporaryFolder folder;
   for (const Json& line : good_run()) {
     append_result(folder.path() / "results.jsonl", line);
@@ -231,7 +243,7 @@ TEST(Gate, TheCommandTellsJUnitAndGitHub) {
   EXPECT_NE(text_of("summary.md").find("| box, cbc3d, 1 thread | counts.tets | tetrahedra was 20"),
             std::string::npos);
   EXPECT_NE(text_of("gate.xml").find("<failure message=\"tetrahedra was 20"), std::string::npos);
-  EXPECT_EQ(to_annotations(compare(run, baseline())),
+  EXPECT_EQ(to_annotations(compare_lines(run, baseline())),
             "::error title=cbc3d-bench gate::box, cbc3d, 1 thread: tetrahedra was 20, is 21 (+1, +5.0 %25; "
             "allowed 0)\n");
 }

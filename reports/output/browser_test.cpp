@@ -8,6 +8,7 @@
 #include "reports/output/output.hpp"
 #include "reports/results/testing_folder.hpp"
 #include "reports/run/child_process.hpp"
+#include "reports/tables/tables.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -71,13 +72,10 @@ TEST(Browser, ShowsTheReportOnAPhoneWithoutSidewaysScrolling) {
     GTEST_SKIP() << "chromium is not installed";
   }
   const TemporaryFolder folder;
-  const std::vector<Json> lines = results();
-  write_text_file(folder.path() / "report.html", to_html({"A report",
-                                                          lines,
-                                                          {},
-                                                          all_tables(folder.path(), lines, {}),
-                                                          all_figures(folder.path(), lines),
-                                                          folder.path() / "none"}));
+  const std::vector<JobResult> jobs = decode_lines(results());
+  write_text_file(folder.path() / "report.html",
+                  to_html({"A report", jobs, build_tables({jobs, {}, folder.path()}),
+                           all_figures(folder.path(), jobs), folder.path() / "none"}));
   write_text_file(folder.path() / "probe.html", probe_page());
   const std::string title = title_in_chromium(folder.path());
   EXPECT_GT(number_after(title, "width="), 0) << title;

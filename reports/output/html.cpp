@@ -9,7 +9,6 @@
 
 #include "reports/charts/picture_kinds.hpp"
 #include "reports/results/columns.hpp"
-#include "reports/run/runner.hpp"
 #include "reports/tables/markup.hpp"
 
 namespace cbc3d::reports {
@@ -104,8 +103,8 @@ std::string table_html(const Table& table) {
 
 std::string summary(const Report& report) {
   std::map<std::string, int> counts;
-  for (const Json& result : report.results) {
-    ++counts[result.value("status", "?")];
+  for (const JobResult& result : report.results) {
+    ++counts[result.status];
   }
   std::string html;
   for (const char* status : kStatuses) {
@@ -134,9 +133,9 @@ std::string data_address(const fs::path& stem) {
 std::string picture_row(const Report& report, const std::string& case_name, const PictureKind& kind) {
   std::string html;
   std::set<std::string> seen;
-  for (const Json& result : report.results) {
-    const std::string mesher = result.value("mesher", "");
-    if (result.value("case", "") != case_name || !seen.insert(mesher).second) {
+  for (const JobResult& result : report.results) {
+    const std::string& mesher = result.mesher;
+    if (result.case_name != case_name || !seen.insert(mesher).second) {
       continue;
     }
     const std::string address =
@@ -173,12 +172,11 @@ std::string plots(const Report& report) {
 
 std::string failures(const Report& report) {
   std::string rows;
-  for (const Json& result : report.results) {
-    const std::string status = result.value("status", "?");
-    if (status != "ok") {
-      const std::string reason = result.value("reason", "");
-      rows += "<tr><td>" + markup_text(result_id(result)) + "</td><td>" + markup_text(status) + "</td><td>" +
-              markup_text(reason.empty() ? "no reason was given" : reason) + "</td></tr>\n";
+  for (const JobResult& result : report.results) {
+    if (!result.is_ok()) {
+      rows += "<tr><td>" + markup_text(result.id) + "</td><td>" +
+              markup_text(result.status.empty() ? "?" : result.status) + "</td><td>" +
+              markup_text(result.reason.empty() ? "no reason was given" : result.reason) + "</td></tr>\n";
     }
   }
   if (rows.empty()) {
@@ -199,8 +197,8 @@ std::string plain(const Json& value) {
 /// The distinct values of a key of the provenance, or of many their range.
 std::string joint_value(const Report& report, const char* key) {
   std::vector<Json> values;
-  for (const Json& result : report.results) {
-    const Json value = figure(result, {"provenance", key});
+  for (const JobResult& result : report.results) {
+    const Json value = result.provenance(key);
     if (!value.is_null() && std::find(values.begin(), values.end(), value) == values.end()) {
       values.push_back(value);
     }
@@ -217,27 +215,26 @@ std::string joint_value(const Report& report, const char* key) {
 }
 
 /// "key=value, key=value".
-std::string parameters_text(const Json& result) {
-  const Json parameters = result.value("parameters", Json::object());
+std::string parameters_text(const Parameters& parameters) {
   std::string text;
-  for (const auto& [key, value] : parameters.items()) {
-    text += (text.empty() ? "" : ", ") + key + "=" + plain(value);
+  for (const auto& [key, value] : parameters) {
+    text += (text.empty() ? "" : ", ") + key + "=" + value;
   }
   return text;
 }
 
 std::string job_digests(const Report& report) {
   std::string rows;
-  for (const Json& result : report.results) {
+  for (const JobResult& result : report.results) {
     const auto text = [&](const char* key) {
-      const Json value = figure(result, {"provenance", key});
+      const Json value = result.provenance(key);
       const std::string all = value.is_null() ? "-" : plain(value);
       return "<td><code>" + markup_text(all.size() == 64 ? all.substr(0, 12) : all) + "</code></td>";
     };
-    rows += "<tr><td>" + markup_text(result_id(result)) + "</td><td>" + markup_text(parameters_text(result)) +
-            "</td>" + text("mesher_version") + text("mesher_licence") + text("seed") + text("image_sha256") +
-            text("configuration_sha256") + text("program_sha256") + text("load_1min") + text("utc") +
-            "</tr>\n";
+    rows += "<tr><td>" + markup_text(result.id) + "</td><td>" +
+            markup_text(parameters_text(result.parameters)) + "</td>" + text("mesher_version") +
+            text("mesher_licence") + text("seed") + text("image_sha256") + text("configuration_sha256") +
+            text("program_sha256") + text("load_1min") + text("utc") + "</tr>\n";
   }
   return "<div class=\"scroll\"><table "
          "class=\"left\"><thead><tr><th>job</th><th>parameters</th><th>version</th>"

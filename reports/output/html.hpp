@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/core/case.hpp"
 #include "reports/charts/figures.hpp"
-#include "reports/results/result.hpp"
+#include "reports/results/job_result.hpp"
 #include "reports/tables/table.hpp"
 
 namespace cbc3d::reports {
@@ -15,8 +14,7 @@ namespace cbc3d::reports {
 /// What a report shows.
 struct Report {
   std::string title;
-  std::vector<Json> results;
-  std::vector<cases::Case> cases;
+  std::vector<JobResult> results;
   std::vector<Table> tables;
   std::vector<Figure> figures;        ///< put in as SVG
   std::filesystem::path picture_dir;  ///< CASE-MESHER-KIND.jpg or .png are put in from here

@@ -8,8 +8,7 @@
 #include "cases/core/case.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "reports/charts/figures.hpp"
-#include "reports/results/result.hpp"
-#include "reports/tables/table.hpp"
+#include "reports/results/job_result.hpp"
 
 namespace cbc3d::reports {
 
@@ -19,16 +18,11 @@ struct OutputOptions {
   bool quiet = false;                                            ///< print no tables
 };
 
-/// Every table of a run, in the order in which they are shown. A folder with a sweep.json has its tables too,
-/// one with a microbenchmarks.json that one.
-std::vector<Table> all_tables(const std::filesystem::path& folder, const std::vector<Json>& results,
-                              const std::vector<cases::Case>& cases);
-
 /// Every plot of a run, with those of a sweep.
-std::vector<Figure> all_figures(const std::filesystem::path& folder, const std::vector<Json>& results);
+std::vector<Figure> all_figures(const std::filesystem::path& folder, const std::vector<JobResult>& results);
 
 /// Writes `folder`/tables and `folder`/figures and prints the tables as Markdown to standard output.
-void write_output(const std::filesystem::path& folder, const std::vector<Json>& results,
+void write_output(const std::filesystem::path& folder, const std::vector<JobResult>& results,
                   const std::vector<cases::Case>& cases, const std::filesystem::path& bin_dir,
                   const OutputOptions& options, TerminalProgress& progress);
 

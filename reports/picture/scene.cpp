@@ -152,7 +152,7 @@ void add_caption(vtkRenderer* renderer, const PictureOptions& options) {
   renderer->AddActor2D(text);
 }
 
-/// Names the labels, each on its colour, unless they are too many to be told apart.
+/// Names the labels, each on its colour, unless they are too many to be distinguished.
 void add_legend(vtkRenderer* renderer, const LabelImage& image, const PictureOptions& options) {
   const std::size_t count = image.labels.size() - 1;
   if (count > kLegendLabels) {

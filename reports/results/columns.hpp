@@ -1,11 +1,11 @@
-// Results put in columns: a mesher each, or a mesher with a thread count.
+// Results put in columns: one per mesher, or per mesher and thread count.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "reports/results/result.hpp"
+#include "reports/results/job_result.hpp"
 
 namespace cbc3d::reports {
 
@@ -14,19 +14,19 @@ namespace cbc3d::reports {
 class Columns {
  public:
   /// `results` must outlive this.
-  explicit Columns(const std::vector<Json>& results);
-  [[nodiscard]] std::string name_of(const Json& result) const;
+  explicit Columns(const std::vector<JobResult>& results);
+  [[nodiscard]] std::string name_of(const JobResult& result) const;
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  /// The result lines of a case in a column.
-  [[nodiscard]] std::vector<const Json*> runs(const std::string& case_name, const std::string& column) const;
+  /// The results of a case in a column.
+  [[nodiscard]] Runs runs(const std::string& case_name, const std::string& column) const;
 
  private:
-  const std::vector<Json>& results_;
+  const std::vector<JobResult>& results_;
   std::vector<std::pair<std::string, std::vector<int>>> threads_;
   std::vector<std::string> names_;
 };
 
 /// Cases in the order of their first lines.
-std::vector<std::string> case_names(const std::vector<Json>& results);
+std::vector<std::string> case_names(const std::vector<JobResult>& results);
 
 }  // namespace cbc3d::reports

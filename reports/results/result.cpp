@@ -1,7 +1,5 @@
 #include "reports/results/result.hpp"
 
-#include <cmath>
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -13,6 +11,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "metrics/catalog.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -23,6 +22,24 @@ Json nulls(const std::vector<const char*>& keys) {
     object[key] = nullptr;
   }
   return object;
+}
+
+/// A null for every metric of the catalog that stands in a line.
+void add_metrics(Json& result) {
+  for (const metrics::Metric& metric : metrics::kCatalog) {
+    if (metric.source == metrics::Source::line) {
+      Json* at = &result;
+      for (const std::string& key : split_path(metric.key)) {
+        at = &(*at)[key];
+      }
+    }
+  }
+}
+
+/// True for the first key of a metric such as "fidelity.hausdorff_mm".
+bool is_section(const std::string& name) {
+  return std::any_of(std::begin(metrics::kCatalog), std::end(metrics::kCatalog),
+                     [&](const metrics::Metric& metric) { return metric.key.starts_with(name + "."); });
 }
 
 std::string read_text(const std::filesystem::path& file) {
@@ -41,20 +58,17 @@ Json empty_result() {
   result["reason"] = "";
   result["mesh_file"] = nullptr;
   result["mesh_sha256"] = nullptr;
-  result["counts"] = nulls({"vertices", "tets", "pyramids", "wedges", "hexes"});
-  result["quality"] = nulls(
-      {"min_dihedral_deg", "max_dihedral_deg", "dihedral_histogram_5deg", "min_scaled_jacobian", "inverted"});
-  result["fidelity"] = nulls({"hausdorff_mm", "image_to_mesh_mm", "mesh_to_image_mm", "surface_hausdorff_mm",
-                              "mean_distance_mm", "hd95_mm", "dice_min", "missing_labels", "per_label"});
-  result["topology"] = nulls({"conforming", "non_manifold_edges", "non_manifold_vertices",
-                              "self_intersections", "components", "per_label"});
-  result["summary"] =
-      nulls({"elements", "min_dihedral_deg", "hausdorff_diagonals", "union_hausdorff_diagonals",
-             "volume_error_percent", "missing_labels", "self_intersections"});
+  for (const char* section : {"counts", "quality", "fidelity", "topology", "summary"}) {
+    result[section] = Json::object();  // in the order in which people read a line
+  }
+  add_metrics(result);
+  for (const char* section : {"fidelity", "topology"}) {
+    result[section]["per_label"] = nullptr;
+  }
+  result["quality"]["dihedral_histogram_5deg"] = nullptr;
   result["faults"] = nullptr;
   result["evaluation_peak_mb"] = nullptr;
-  result["time_s"] = nulls({"mesh", "cpu", "stages"});
-  result["peak_rss_bytes"] = nullptr;
+  result["time_s"]["stages"] = nullptr;
   result["image"] = nulls({"size", "spacing_mm", "labels"});
   result["mesher_report"] = Json::object();
   result["provenance"] = Json::object();
@@ -62,11 +76,11 @@ Json empty_result() {
 }
 
 void merge_evaluation(Json& result, const nlohmann::json& evaluation) {
-  for (const char* section : {"counts", "quality", "fidelity", "topology", "summary", "shape", "image"}) {
-    if (!evaluation.contains(section) || !evaluation[section].is_object()) {
+  for (const auto& [section, figures] : evaluation.items()) {
+    if (!figures.is_object() || !(section == "image" || is_section(section))) {
       continue;
     }
-    for (const auto& [key, value] : evaluation[section].items()) {
+    for (const auto& [key, value] : figures.items()) {
       result[section][key] = value;
     }
   }
@@ -149,6 +163,16 @@ std::string file_stem(const Json& result) {
   return stem;
 }
 
+std::vector<std::string> split_path(std::string_view path) {
+  std::vector<std::string> keys;
+  std::size_t begin = 0;
+  for (std::size_t dot = 0; (dot = path.find('.', begin)) != std::string_view::npos; begin = dot + 1) {
+    keys.emplace_back(path.substr(begin, dot - begin));
+  }
+  keys.emplace_back(path.substr(begin));
+  return keys;
+}
+
 Json figure(const Json& result, const std::vector<std::string>& path) {
   const Json* at = &result;
   for (const std::string& key : path) {
@@ -158,18 +182,6 @@ Json figure(const Json& result, const std::vector<std::string>& path) {
     at = &(*at)[key];
   }
   return *at;
-}
-
-std::optional<double> largest_volume_error(const Json& result) {
-  const Json labels = figure(result, {"fidelity", "per_label"});
-  std::optional<double> largest;
-  for (const Json& label : labels.is_array() ? labels : Json::array()) {
-    const Json error = figure(label, {"volume_error_percent"});
-    if (error.is_number()) {
-      largest = std::max(largest.value_or(0), std::abs(error.get<double>()));
-    }
-  }
-  return largest;
 }
 
 }  // namespace cbc3d::reports

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cbc3d::reports {
@@ -18,8 +18,8 @@ inline constexpr const char* kStatuses[] = {"ok",      "failed",     "crashed", 
 /// A result line with every key there and every figure null.
 Json empty_result();
 
-/// Puts the keys counts, quality, fidelity, topology, summary, shape, image, faults and evaluation_peak_mb
-/// of an evaluation into a result line; keys that the evaluation lacks stay null, and shape is absent.
+/// Puts the sections of an evaluation that the catalog of metrics names, and its keys image, faults and
+/// evaluation_peak_mb, into a result line. Keys that the evaluation lacks stay null.
 void merge_evaluation(Json& result, const nlohmann::json& evaluation);
 
 /// Appends one line with a single write and waits until it is on the disk, so that a reader, or a run that
@@ -43,10 +43,10 @@ std::string result_id(const Json& result);
 /// result_id without what a file name should not have.
 std::string file_stem(const Json& result);
 
+/// The keys of a path such as "fidelity.hausdorff_mm".
+std::vector<std::string> split_path(std::string_view path);
+
 /// The figure at a path such as {"fidelity", "hausdorff_mm"}; null where any of it is absent.
 Json figure(const Json& result, const std::vector<std::string>& path);
-
-/// The largest volume error of a label of a result line, percent, without its sign; none without labels.
-std::optional<double> largest_volume_error(const Json& result);
 
 }  // namespace cbc3d::reports

@@ -1,11 +1,14 @@
+#include "reports/results/result.hpp"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <regex>
 
 #include "mesher/core/error.hpp"
-#include "reports/results/result.hpp"
+#include "metrics/catalog.hpp"
 #include "reports/results/testing_folder.hpp"
 
 namespace cbc3d::reports {
@@ -41,6 +44,12 @@ TEST(Result, HasEveryKeyOfALine) {
         "quality", "fidelity", "topology", "time_s", "peak_rss_bytes", "provenance"}) {
     EXPECT_TRUE(result.contains(key)) << key;
   }
+  for (const metrics::Metric& metric : metrics::kCatalog) {
+    EXPECT_EQ(metric.source == metrics::Source::line,
+              result.contains(Json::json_pointer(
+                  "/" + std::regex_replace(std::string(metric.key), std::regex("\\."), "/"))))
+        << metric.key;
+  }
   EXPECT_TRUE(figure(result, {"fidelity", "hausdorff_mm"}).is_null());
   EXPECT_TRUE(figure(result, {"no", "such", "figure"}).is_null());
 }
@@ -52,6 +61,16 @@ TEST(Result, TakesOnlyTheFiguresOfAnEvaluation) {
   EXPECT_TRUE(result["counts"]["hexes"].is_null());
   EXPECT_EQ(result["case"], "liver");
   EXPECT_TRUE(result["topology"].is_object());
+  merge_evaluation(result,
+                   {{"shape", {{"figure", 1}}}, {"image", {{"size", {1, 2, 3}}}}, {"colour", {{"a", 1}}}});
+  EXPECT_EQ(result["shape"]["figure"], 1);
+  EXPECT_EQ(result["image"]["size"].size(), 3U);
+  EXPECT_FALSE(result.contains("colour"));
+}
+
+TEST(Result, PathsAreSplitAtTheirDots) {
+  EXPECT_EQ(split_path("fidelity.hausdorff_mm"), (std::vector<std::string>{"fidelity", "hausdorff_mm"}));
+  EXPECT_EQ(split_path("threads"), std::vector<std::string>{"threads"});
 }
 
 TEST(Result, LinesOfSeveralWritersDoNotMix) {

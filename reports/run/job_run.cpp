@@ -102,7 +102,7 @@ void set_failure(Json& result, const ChildResult& child, const nlohmann::json& r
 }
 
 /// Time and memory: the mesher's own figures, which leave out reading and writing. For a mesher from outside
-/// that tells none, what the system saw from its start to its end.
+/// that reports none, what the system saw from its start to its end.
 void set_costs(Json& result, const ChildResult& child, const nlohmann::json& report, bool external) {
   const nlohmann::json seconds = object_at(report, "seconds");
   const bool whole_process = external && succeeded(child) && !seconds.contains("total");
@@ -191,7 +191,7 @@ Json seed_of(const Job& job) {
   return nullptr;
 }
 
-/// Options of `evaluate` that tell it which phantom the image is, so that it knows the true shape.
+/// Options of `evaluate` that name the phantom that the image is, so that it knows the true shape.
 std::vector<std::string> phantom_options(const cases::Case& subject) {
   if (!subject.phantom || subject.derive.any()) {
     return {};

@@ -54,7 +54,7 @@ std::vector<Job> all_jobs(const Bench& bench, const RunOptions& options) {
   for (const cases::Case& subject : bench.cases) {
     for (const baselines::Adapter& mesher : bench.meshers) {
       const Parameters parameters = parameters_of(subject, mesher.name, options);
-      baselines::require_known_parameters(mesher.name, mesher.parameters, {"", "", "", 1, parameters});
+      baselines::require_known_parameters(mesher, bench.bin_dir, parameters);
       for (const int threads : thread_counts(mesher, options.threads)) {
         for (int repeat = 0; repeat < options.repeats; ++repeat) {
           jobs.push_back({&subject, &mesher, threads, repeat, parameters});
@@ -118,21 +118,6 @@ std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, Termin
   }
   progress.done();
   return results;
-}
-
-std::string summary_line(const std::vector<Json>& results) {
-  std::string text = std::to_string(results.size()) + (results.size() == 1 ? " job:" : " jobs:");
-  const char* separator = " ";
-  for (const char* status : kStatuses) {
-    const auto count = std::count_if(results.begin(), results.end(), [&](const Json& result) {
-      return result.value("status", "") == status;
-    });
-    if (count > 0) {
-      text += separator + std::to_string(count) + " " + status;
-      separator = ", ";
-    }
-  }
-  return text;
 }
 
 }  // namespace cbc3d::reports

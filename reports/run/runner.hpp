@@ -12,11 +12,9 @@
 #include "cases/core/case.hpp"
 #include "cases/manifest.hpp"
 #include "mesher/core/terminal_progress.hpp"
-#include "reports/results/result.hpp"
+#include "reports/results/job_result.hpp"
 
 namespace cbc3d::reports {
-
-using Parameters = std::map<std::string, std::string>;
 
 /// What a run works with.
 struct Bench {
@@ -67,8 +65,5 @@ std::vector<Job> plan_jobs(const Bench& bench, const RunOptions& options);
 /// and `resume` is off, or results of jobs whose case, parameters or program have changed since; JobError
 /// when a line cannot be written.
 std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, TerminalProgress& progress);
-
-/// "12 jobs: 10 ok, 1 crashed, 1 skipped".
-std::string summary_line(const std::vector<Json>& results);
 
 }  // namespace cbc3d::reports

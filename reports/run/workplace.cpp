@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "baselines/core/adapter.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::reports {
@@ -14,7 +15,7 @@ fs::path executable_file() {
 }
 
 fs::path bin_dir() {
-  return executable_file().parent_path();
+  return baselines::program_folder();
 }
 
 fs::path manifest_dir() {

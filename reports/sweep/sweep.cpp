@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "reports/results/run_values.hpp"
 #include "reports/results/statistics.hpp"
 
 namespace cbc3d::reports {
@@ -23,42 +23,20 @@ double relative_error(const Samples& samples) {
   return samples.median_s > 0 ? samples.error_s / samples.median_s : 0;
 }
 
-std::vector<double> seconds_at(const std::vector<const Json*>& runs, const std::vector<std::string>& path) {
-  std::vector<double> seconds;
-  for (const Json* run : runs) {
-    const Json value = figure(*run, path);
-    if (run->value("status", "") == "ok" && value.is_number()) {
-      seconds.push_back(value.get<double>());
+SweepPoint point_of(const Runs& runs) {
+  const JobResult& first = *runs.front();
+  SweepPoint point{.case_name = first.case_name, .mesher = first.mesher, .threads = first.threads};
+  point.total = samples_of(values_of(runs, shown_figure(metrics::metric_id("time_s.mesh"))));
+  point.with_files = samples_of(values_of(runs, shown_figure(metrics::metric_id("time_s.process_wall"))));
+  for (const JobResult* run : runs) {
+    if (!run->is_ok()) {
+      point.failure = run->status + ": " + run->reason;
     }
   }
-  return seconds;
-}
-
-std::vector<std::string> stage_names(const std::vector<const Json*>& runs) {
-  const Json stages = figure(*runs.front(), {"time_s", "stages"});
-  std::vector<std::string> names;
-  if (stages.is_object()) {
-    for (const auto& [name, seconds] : stages.items()) {
-      names.push_back(name);
-    }
-  }
-  return names;
-}
-
-SweepPoint point_of(const std::vector<const Json*>& runs) {
-  SweepPoint point;
-  point.case_name = runs.front()->value("case", "");
-  point.mesher = runs.front()->value("mesher", "");
-  point.threads = runs.front()->value("threads", 1);
-  point.total = samples_of(seconds_at(runs, {"time_s", "mesh"}));
-  point.with_files = samples_of(seconds_at(runs, {"time_s", "process_wall"}));
-  for (const Json* run : runs) {
-    if (run->value("status", "") != "ok") {
-      point.failure = run->value("status", "") + ": " + run->value("reason", "");
-    }
-  }
-  for (const std::string& name : stage_names(runs)) {
-    const std::vector<double> seconds = seconds_at(runs, {"time_s", "stages", name});
+  for (const auto& [stage, unused] : first.stage_seconds) {
+    const std::string& name = stage;
+    const std::vector<double> seconds =
+        values_of(runs, [&](const JobResult& run) { return run.stage(name); });
     if (seconds.size() == point.total.seconds.size() && !seconds.empty()) {
       point.stages.emplace_back(name, samples_of(seconds));
     }
@@ -108,19 +86,18 @@ Json to_json(const Samples& samples) {
 
 }  // namespace
 
-std::vector<SweepPoint> sweep_points(const std::vector<Json>& results) {
-  std::vector<std::vector<const Json*>> groups;
-  for (const Json& result : results) {
-    const auto same = [&](const std::vector<const Json*>& group) {
-      return (*group.front())["case"] == result["case"] && (*group.front())["mesher"] == result["mesher"] &&
-             (*group.front())["threads"] == result["threads"];
-    };
-    const auto found = std::find_if(groups.begin(), groups.end(), same);
-    (found == groups.end() ? *groups.insert(groups.end(), std::vector<const Json*>{}) : *found)
-        .push_back(&result);
+std::vector<SweepPoint> sweep_points(const std::vector<JobResult>& results) {
+  std::vector<Runs> groups;
+  for (const JobResult& result : results) {
+    const auto found = std::find_if(groups.begin(), groups.end(), [&](const Runs& group) {
+      const JobResult& first = *group.front();
+      return first.case_name == result.case_name && first.mesher == result.mesher &&
+             first.threads == result.threads;
+    });
+    (found == groups.end() ? *groups.insert(groups.end(), Runs{}) : *found).push_back(&result);
   }
   std::vector<SweepPoint> points;
-  for (const auto& group : groups) {
+  for (const Runs& group : groups) {
     points.push_back(point_of(group));
   }
   const std::vector<SweepPoint> all = points;
@@ -128,6 +105,12 @@ std::vector<SweepPoint> sweep_points(const std::vector<Json>& results) {
     compare(point, all);
   }
   return points;
+}
+
+std::vector<SweepPoint> points_of_sweep(const std::filesystem::path& folder,
+                                        const std::vector<JobResult>& results) {
+  return std::filesystem::exists(folder / "sweep.json") && !folder.empty() ? sweep_points(results)
+                                                                           : std::vector<SweepPoint>{};
 }
 
 Json to_json(const std::vector<SweepPoint>& points) {

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <set>
 
-#include "reports/results/columns.hpp"
 #include "reports/results/statistics.hpp"
-#include "reports/tables/measures.hpp"
+#include "reports/tables/cells.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using metrics::metric_id;
 
 constexpr double kFlatPercent = 20;
 constexpr double kSmallestStageShare = 0.05;
@@ -17,7 +18,7 @@ constexpr double kSmallestStageShare = 0.05;
 /// One image of a series.
 struct Size {
   double voxels = 0, elements = 0;
-  std::vector<const Json*> runs;  ///< of one column
+  Runs runs;  ///< of one column
 };
 
 struct Series {
@@ -69,19 +70,20 @@ std::vector<ImageFamily> families_of(const std::vector<cases::Case>& cases,
   return families;
 }
 
-std::optional<double> median_of(const std::vector<const Json*>& runs, const FigureOf& figure_of) {
-  return cell_of(runs, {"", 0, "", figure_of}).value;
+FigureOf stage_seconds(const std::string& name) {
+  return [name](const JobResult& result) { return result.stage(name); };
 }
 
-/// The lines of a column on every case of a family, good ones with elements alone.
+/// The results of a column on every case of a family, good ones with elements alone.
 Series series_of(const Columns& columns, const std::string& column, const std::vector<cases::Case>& cases,
                  const ImageFamily& family) {
+  const FigureOf seconds = shown_figure(metric_id("time_s.mesh"));
   Series series{family.title(), column, {}};
   for (const cases::Case& subject : cases) {
     if (family.holds(subject)) {
       const auto runs = columns.runs(subject.name, column);
-      const auto elements = median_of(runs, element_count);
-      if (elements.value_or(0) > 0 && median_of(runs, at({"time_s", "mesh"}))) {
+      const auto elements = median_of(runs, shown_figure(metric_id("elements")));
+      if (elements.value_or(0) > 0 && median_of(runs, seconds)) {
         series.sizes.push_back({voxel_count(subject), *elements, runs});
       }
     }
@@ -91,12 +93,12 @@ Series series_of(const Columns& columns, const std::string& column, const std::v
   return series;
 }
 
-std::vector<Series> all_series(const std::vector<Json>& results, const std::vector<cases::Case>& cases) {
-  const Columns columns(results);
+std::vector<Series> all_series(const TableInput& input) {
+  const Columns columns(input.results);
   std::vector<Series> list;
-  for (const ImageFamily& family : families_of(cases, case_names(results))) {
+  for (const ImageFamily& family : families_of(input.cases, case_names(input.results))) {
     for (const std::string& column : columns.names()) {
-      Series series = series_of(columns, column, cases, family);
+      Series series = series_of(columns, column, input.cases, family);
       if (series.sizes.size() > 1 && series.sizes.front().voxels < series.sizes.back().voxels) {
         list.push_back(std::move(series));
       }
@@ -114,14 +116,9 @@ int multiple(const Series& series, const Size& size) {
 std::vector<std::string> costly_stages(const Series& series) {
   std::vector<std::string> names;
   for (const Size& size : series.sizes) {
-    const double total = median_of(size.runs, at({"time_s", "mesh"})).value_or(0);
-    const Json stages = figure(*size.runs.front(), {"time_s", "stages"});
-    if (!stages.is_object()) {
-      continue;
-    }
-    for (const auto& [stage, unused] : stages.items()) {
-      const std::string name = stage;
-      const double seconds = median_of(size.runs, at({"time_s", "stages", name})).value_or(0);
+    const double total = median_of(size.runs, shown_figure(metric_id("time_s.mesh"))).value_or(0);
+    for (const auto& [name, unused] : size.runs.front()->stage_seconds) {
+      const double seconds = median_of(size.runs, stage_seconds(name)).value_or(0);
       if (seconds > kSmallestStageShare * total && std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
     }
@@ -145,10 +142,10 @@ class SeriesRows {
 
   std::vector<Row> all() {
     rows_.push_back(row_of("elements", 0, [](const Size& size) { return std::optional(size.elements); }));
-    add_costs("wall time", at({"time_s", "mesh"}), true);
-    add_costs("CPU time", at({"time_s", "cpu"}), true);
+    add_costs("wall time", shown_figure(metric_id("time_s.mesh")), true);
+    add_costs("CPU time", shown_figure(metric_id("time_s.cpu")), true);
     for (const std::string& stage : costly_stages(series_)) {
-      add_costs(stage, at({"time_s", "stages", stage}), false);
+      add_costs(stage, stage_seconds(stage), false);
     }
     return std::move(rows_);
   }
@@ -195,8 +192,8 @@ class SeriesRows {
 
 }  // namespace
 
-Table scaling_table(const std::vector<Json>& results, const std::vector<cases::Case>& cases) {
-  const std::vector<Series> list = all_series(results, cases);
+Table scaling_table(const TableInput& input) {
+  const std::vector<Series> list = all_series(input);
   std::set<int> found;
   for (const Series& series : list) {
     for (const Size& size : series.sizes) found.insert(multiple(series, size));

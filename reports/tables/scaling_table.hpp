@@ -1,10 +1,7 @@
 // How a mesher's cost grows with the image.
 #pragma once
 
-#include <vector>
-
-#include "cases/core/case.hpp"
-#include "reports/tables/table.hpp"
+#include "reports/tables/table_input.hpp"
 
 namespace cbc3d::reports {
 
@@ -15,6 +12,6 @@ namespace cbc3d::reports {
 /// us per element; the last column is the largest distance from the median over the sizes in percent of the
 /// median, marked above 20 for all but the stages. Medians of the repeats. Without rows when there is no
 /// series.
-Table scaling_table(const std::vector<Json>& results, const std::vector<cases::Case>& cases);
+Table scaling_table(const TableInput& input);
 
 }  // namespace cbc3d::reports

@@ -1,53 +1,39 @@
 #include "reports/tables/speed_table.hpp"
 
-#include <algorithm>
-
-#include "reports/results/columns.hpp"
-#include "reports/tables/measures.hpp"
+#include "reports/tables/cells.hpp"
 #include "reports/tables/paper_figure.hpp"
 
 namespace cbc3d::reports {
 namespace {
 
-std::optional<double> elements_per_second(const Json& result) {
-  const auto elements = element_count(result), seconds = at({"time_s", "mesh"})(result);
-  return elements && seconds && *seconds > 0 ? std::optional(*elements / *seconds) : std::nullopt;
-}
+using metrics::metric_id;
+using metrics::MetricId;
 
-std::optional<double> core_seconds(const Json& result) {
-  const auto seconds = at({"time_s", "mesh"})(result), threads = at({"threads"})(result);
+constexpr const char* kName = "speed";
+
+std::optional<double> core_seconds(const JobResult& result) {
+  const auto seconds = result.figures[metric_id("time_s.mesh")];
+  const auto threads = result.figures[metric_id("threads")];
   return seconds && threads ? std::optional(*seconds * *threads) : std::nullopt;
-}
-
-const std::vector<Measure>& measures() {
-  constexpr double kMegabytesPerByte = 1e-6;
-  static const std::vector<Measure> list{
-      {"elements", 0, "", element_count},
-      {"time (s)", 2, "time_s", at({"time_s", "mesh"})},
-      {"time with files (s)", 2, "", at({"time_s", "process_wall"})},
-      {"CPU time (s)", 2, "", at({"time_s", "cpu"})},
-      {"threads", 0, "threads", at({"threads"})},
-      {"elements per second", 0, "", elements_per_second},
-      {"HD (mm)", 2, "hausdorff_mm", at({"fidelity", "hausdorff_mm"})},
-      {"peak memory (MB)", 0, "", at({"peak_rss_bytes"}, kMegabytesPerByte)}};
-  return list;
 }
 
 /// The rows of one case.
 class CaseRows {
  public:
-  CaseRows(const Columns& columns, const std::vector<cases::Case>& cases, const std::string& case_name)
-      : names_(columns.names()), cases_(cases), case_name_(case_name) {
-    for (const std::string& name : names_) runs_.push_back(columns.runs(case_name, name));
+  CaseRows(const TableInput& input, const Columns& columns, const std::string& case_name)
+      : input_(input), columns_(columns), case_name_(case_name) {
+    for (const std::string& name : columns.names()) runs_.push_back(columns.runs(case_name, name));
   }
 
   std::vector<Row> all() {
-    for (const Measure& measure : measures()) add(measure);
-    for (std::size_t reference = 0; reference < names_.size(); ++reference) {
+    for (const MetricId id : metrics_of_table(kName)) {
+      rows_.push_back(metric_row(input_, columns_, case_name_, id));
+    }
+    for (std::size_t reference = 0; reference < runs_.size(); ++reference) {
       if (is_reference(reference)) {
-        add_multiples("elements", measures()[0], reference);
-        add_multiples("time", measures()[1], reference);
-        add_multiples("CPU time", measures()[3], reference);
+        add_multiples(metric_id("elements"), reference);
+        add_multiples(metric_id("time_s.mesh"), reference);
+        add_multiples(metric_id("time_s.cpu"), reference);
       }
     }
     add_core_seconds();
@@ -56,38 +42,30 @@ class CaseRows {
 
  private:
   [[nodiscard]] bool is_reference(std::size_t column) const {
-    const std::string mesher = runs_[column].empty() ? "" : text_of(*runs_[column].front(), "mesher");
+    const std::string mesher = runs_[column].empty() ? "" : runs_[column].front()->mesher;
     return mesher == "cbc3d" || mesher == "cbc3d-paper";
   }
 
-  void add(const Measure& measure) {
-    Row row{case_name_, measure.name, measure.decimals, {}};
-    for (const auto& runs : runs_) {
-      row.cells.push_back(cell_of(runs, measure));
-      row.cells.back().paper = paper_figure(cases_, runs, measure.paper_key);
-    }
-    rows_.push_back(std::move(row));
-  }
-
-  void add_multiples(const std::string& what, const Measure& measure, std::size_t reference) {
-    const auto base = cell_of(runs_[reference], measure).value;
-    if (!base || *base <= 0 || names_.size() < 2) return;
-    Row row{case_name_, what + " over " + names_[reference] + "'s", 2, {}};
-    for (const auto& runs : runs_) {
-      const auto value = cell_of(runs, measure).value;
+  void add_multiples(MetricId id, std::size_t reference) {
+    const auto base = median_of(runs_[reference], shown_figure(id));
+    if (!base || *base <= 0 || runs_.size() < 2) return;
+    const std::string name(metrics::metric(id).name);
+    Row row{case_name_, name + " over " + columns_.names()[reference] + "'s", 2, {}};
+    for (const Runs& runs : runs_) {
+      const auto value = median_of(runs, shown_figure(id));
       row.cells.push_back(value ? number_cell(*value / *base, 2) : Cell{});
     }
     rows_.push_back(std::move(row));
   }
 
   void add_core_seconds() {
-    Row ours{case_name_, "core-seconds (time x threads)", 2, {}}, quotient{case_name_, "", 1, {}};
-    quotient.figure = "the paper's core-seconds over these";
+    Row ours{case_name_, "core-seconds (time x threads)", 2, {}};
+    Row quotient{case_name_, "the paper's core-seconds over these", 1, {}};
     bool known = false;
-    for (const auto& runs : runs_) {
-      Cell cell = cell_of(runs, {ours.figure, ours.decimals, "", core_seconds});
-      const auto seconds = paper_figure(cases_, runs, "time_s"),
-                 threads = paper_figure(cases_, runs, "threads");
+    for (const Runs& runs : runs_) {
+      Cell cell = cell_of(runs, core_seconds);
+      const auto seconds = paper_figure(input_.cases, runs, "time_s"),
+                 threads = paper_figure(input_.cases, runs, "threads");
       if (seconds && threads) cell.paper = *seconds * *threads;
       const bool both = cell.paper && cell.value && *cell.value > 0;
       quotient.cells.push_back(both ? number_cell(*cell.paper / *cell.value, 1) : Cell{});
@@ -98,26 +76,24 @@ class CaseRows {
     if (known) rows_.push_back(std::move(quotient));
   }
 
-  const std::vector<std::string>& names_;
-  const std::vector<cases::Case>& cases_;
+  const TableInput& input_;
+  const Columns& columns_;
   std::string case_name_;
-  std::vector<std::vector<const Json*>> runs_;  ///< of each column
+  std::vector<Runs> runs_;  ///< of each column
   std::vector<Row> rows_;
 };
 
 }  // namespace
 
-Table speed_table(const std::vector<Json>& results, const std::vector<cases::Case>& cases) {
-  const Columns columns(results);
-  Table table{"speed",
-              "Speed (HD: the paper's Hausdorff distance; the paper's core-seconds: on its own image and "
-              "machine)",
-              columns.names(),
-              {},
-              "case",
-              "figure"};
-  for (const std::string& case_name : case_names(results)) {
-    for (Row& row : CaseRows(columns, cases, case_name).all()) table.rows.push_back(std::move(row));
+Table speed_table(const TableInput& input) {
+  const Columns columns(input.results);
+  Table table{.name = kName,
+              .title =
+                  "Speed (HD: the paper's Hausdorff distance; the paper's core-seconds: on its own image and "
+                  "machine)",
+              .columns = columns.names()};
+  for (const std::string& case_name : case_names(input.results)) {
+    for (Row& row : CaseRows(input, columns, case_name).all()) table.rows.push_back(std::move(row));
   }
   return table;
 }

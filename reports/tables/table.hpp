@@ -39,9 +39,10 @@ struct Table {
   std::string name;   ///< file name without extension
   std::string title;  ///< one line
   std::vector<std::string> columns;
-  std::vector<Row> rows;
+  std::vector<Row> rows = {};
   std::string row_header = "case";       ///< of the rows' first column
   std::string figure_header = "figure";  ///< of the second
+  bool on_screen = true;                 ///< printed after a run too; false: too long for that
 };
 
 /// "1,234 [1,200-1,300] (paper: 1,100)", "1.5 missed (label 4)"; "-" without a value. The range is there when

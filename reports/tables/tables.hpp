@@ -1,19 +1,18 @@
-// The tables of a results file: element count, element quality, fidelity, time, vertices of mixed meshes,
-// speed (speed_table.hpp), scaling (scaling_table.hpp), targets and smoothness (target_table.hpp).
+// All tables of a run, and their files.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "cases/core/case.hpp"
-#include "reports/tables/table.hpp"
+#include "reports/tables/table_input.hpp"
 
 namespace cbc3d::reports {
 
-/// Tables from result lines. Columns are meshers, with their threads where one ran with several counts; runs
-/// that differ only in the repeat are summed up by their median. `cases` gives the paper's figures.
-std::vector<Table> build_tables(const std::vector<Json>& results, const std::vector<cases::Case>& cases);
+/// The tables of the registry (table_list.hpp) that the run has rows for. Columns are mostly meshers, with
+/// their threads where one ran with several counts; runs that differ only in the repeat are summed up by
+/// their median.
+std::vector<Table> build_tables(const TableInput& input);
 
 /// Writes every table as NAME.FORMAT into `folder`, which is made if need be. Formats: csv, json, md, tex.
 /// Throws InputError for another one.

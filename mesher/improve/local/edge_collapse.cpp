@@ -87,7 +87,7 @@ class EdgeCollapser {
     return !odd && (on_curve_ ? ends == 2 : ends == 0 && is_one_fan());
   }
 
-  /// True when the facets at the vertex follow each other once round it.
+  /// True when the facets at the vertex follow each other once around it.
   [[nodiscard]] bool is_one_fan() const {
     const auto& facets = patch_.facets;
     VertexId at = facets.front().second;
@@ -120,29 +120,29 @@ class EdgeCollapser {
     longest_squared_ = longest * longest;
   }
 
-  /// Draws u onto a neighbour, if one allows it.
+  /// Collapses u onto a neighbour, if one allows it.
   bool try_collapses(VertexId u) {
-    if (on_facets_ && !points_find_hosts(u)) {
+    if (on_facets_ && !samples_stay_covered(u)) {
       return false;
     }
     rank_targets(u);
     return std::any_of(targets_.begin(), targets_.end(), [&](const auto& target) {
       const VertexId v = target.second;
       load_other(v);
-      return keeps_shape(u, v) && (!on_facets_ || facets_allow(u, v)) && collapse(u, v);
+      return keeps_topology(u, v) && (!on_facets_ || facets_allow(u, v)) && collapse(u, v);
     });
   }
 
-  /// True when u could go without a boundary voxel losing its host.
-  bool points_find_hosts(VertexId u) {
-    hosts_.clear();
+  /// True when u could go and its samples stay covered.
+  bool samples_stay_covered(VertexId u) {
+    candidates_.clear();
     for (const SurfaceNeighbour& s : near_u_) {
-      hosts_.push_back(s.vertex);
+      candidates_.push_back(s.vertex);
     }
-    return patch_.cover.can_release(u, nullptr, hosts_, mesh_, patch_.sets);
+    return patch_.cover.can_release(u, nullptr, candidates_, mesh_, patch_.sets);
   }
 
-  /// The neighbours that u may be drawn onto, best first.
+  /// The neighbours that u may collapse onto, best first.
   void rank_targets(VertexId u) {
     targets_.clear();
     for (const VertexId v : patch_.around) {
@@ -172,7 +172,7 @@ class EdgeCollapser {
   };
 
   /// Worst angle of the tets of w that stay when those with `gone` vanish, with another vertex in the place
-  /// of w; something not above the floor where it is not better.
+  /// of w; a value not above the floor where the angle is not above it.
   [[nodiscard]] double quality_at(std::span<const TetId> star, VertexId w, VertexId gone,
                                   const Placed& to) const {
     double worst = 1;
@@ -198,7 +198,7 @@ class EdgeCollapser {
     return worst;
   }
 
-  /// False when an edge to one of these would be longer than it may.
+  /// False when an edge to one of these would be longer than the gradation allows.
   [[nodiscard]] bool grows_slowly(const Placed& from, const std::array<VertexId, 3>& ends) const {
     const std::vector<double>& longest = patch_.longest_mm;
     return std::all_of(ends.begin(), ends.end(), [&](VertexId w) {
@@ -207,7 +207,7 @@ class EdgeCollapser {
     });
   }
 
-  /// The star of a neighbour, and what it is joined to along interfaces.
+  /// Loads the star of a neighbour, and what the neighbour is joined to along interfaces.
   void load_other(VertexId v) {
     mesh_.star(v, patch_.star_other);
     if (on_facets_) {
@@ -217,7 +217,7 @@ class EdgeCollapser {
   }
 
   /// Link condition: what both ends are joined to is joined to the edge, and along interfaces by facets.
-  bool keeps_shape(VertexId u, VertexId v) {
+  bool keeps_topology(VertexId u, VertexId v) {
     mesh_.neighbours(v, patch_.star_other, patch_.around_other);
     on_edge_.clear();
     for (const TetId t : patch_.star) {
@@ -235,10 +235,10 @@ class EdgeCollapser {
         return false;
       }
     }
-    return !on_facets_ || keeps_surface_shape(v);
+    return !on_facets_ || keeps_surface_topology(v);
   }
 
-  bool keeps_surface_shape(VertexId v) {
+  bool keeps_surface_topology(VertexId v) {
     std::size_t common = 0;
     for (const SurfaceNeighbour& s : near_u_) {
       const std::uint32_t at_v = facets_to(near_v_, s.vertex);
@@ -247,11 +247,11 @@ class EdgeCollapser {
         return false;  // a curve of three edges would close up
       }
     }
-    return common == facets_to(near_u_, v) && !shares_far_side();
+    return common == facets_to(near_u_, v) && !volumes_far_side();
   }
 
   /// True when two facets, one at each end, have the same far side: the pocket between them would close.
-  [[nodiscard]] bool shares_far_side() const {
+  [[nodiscard]] bool volumes_far_side() const {
     return std::any_of(patch_.facets.begin(), patch_.facets.end(), [&](const FacetAt& f) {
       return std::any_of(patch_.facets_other.begin(), patch_.facets_other.end(), [&](const FacetAt& g) {
         return (f.first == g.first && f.second == g.second) || (f.first == g.second && f.second == g.first);
@@ -259,23 +259,24 @@ class EdgeCollapser {
     });
   }
 
-  /// Distance and folds.
+  /// Guards of the interface: folds, volumes and distance.
   bool facets_allow(VertexId u, VertexId v) {
     const Vec3& to = mesh_.point(v);
-    return !folds(patch_.facets, mesh_.point(u), v, to) && keeps_volumes(u, v, to, false) && !strays(u, v);
+    return !folds(patch_.facets, mesh_.point(u), v, to) && keeps_volumes(u, v, to, false) &&
+           !facets_deviate(u, v);
   }
 
-  /// True when no material round u, and round v when both move, gains or loses much of what it has there:
-  /// thin parts are worn away otherwise, whose surfaces stay near the boundary all the same.
+  /// True when no material around u, and around v when both move, loses much of its volume there. Thin parts
+  /// would be worn away otherwise, though their surfaces stay near the boundary.
   bool keeps_volumes(VertexId u, VertexId v, const Vec3& to, bool both_move) {
-    shares_.clear();
-    shares_.add_gains(mesh_, patch_.facets, {u, kNoVertex}, to);
-    shares_.add_volumes(mesh_, patch_.star, kNoVertex);
+    volumes_.clear();
+    volumes_.add_gains(mesh_, patch_.facets, {u, kNoVertex}, to);
+    volumes_.add_volumes(mesh_, patch_.star, kNoVertex);
     if (both_move) {
-      shares_.add_gains(mesh_, patch_.facets_other, {v, u}, to);
-      shares_.add_volumes(mesh_, patch_.star_other, u);
+      volumes_.add_gains(mesh_, patch_.facets_other, {v, u}, to);
+      volumes_.add_volumes(mesh_, patch_.star_other, u);
     }
-    return shares_.largest_loss() <= options_.volume_share;
+    return volumes_.largest_loss() <= options_.volume_share;
   }
 
   /// True when `holds(facet, p, q)` for a facet with sides to p and q that stays; those with `gone` vanish.
@@ -297,8 +298,8 @@ class EdgeCollapser {
     });
   }
 
-  /// True when a new facet lies farther from the boundary than allowed and than the old ones.
-  bool strays(VertexId u, VertexId v) {
+  /// True when a new facet deviates more from the boundary than allowed and than the old ones do.
+  bool facets_deviate(VertexId u, VertexId v) {
     const Vec3& from = mesh_.point(u);
     const Vec3& to = mesh_.point(v);
     double limit = -1;
@@ -320,7 +321,7 @@ class EdgeCollapser {
     return largest;
   }
 
-  /// Draws u and a neighbour of the same class together at a place between them.
+  /// Merges u and a neighbour of the same class at a place between them.
   bool try_merges(VertexId u) {
     targets_.clear();
     for (const VertexId v : patch_.around) {
@@ -347,7 +348,7 @@ class EdgeCollapser {
       return false;
     }
     load_other(v);
-    return quality_at(patch_.star_other, v, u, {v, middle}) > floor_ && keeps_shape(u, v) &&
+    return quality_at(patch_.star_other, v, u, {v, middle}) > floor_ && keeps_topology(u, v) &&
            merge(u, {v, middle});
   }
 
@@ -358,7 +359,7 @@ class EdgeCollapser {
     if (ends != (on_curve_ ? 2 : 0)) {
       return false;
     }
-    if (!find_stranded_points(u, v)) {
+    if (!find_uncovered_samples(u, v)) {
       return false;
     }
     merging_ = {u, v};
@@ -368,24 +369,25 @@ class EdgeCollapser {
         return false;
       }
       if (merged_quality(u, to) > floor_ && merged_facets_allow(u, to)) {
-        return keeps_shape(u, v) && merge(u, to);
+        return keeps_topology(u, v) && merge(u, to);
       }
     }
     return false;
   }
 
-  /// The points of u and v that are out of reach of the vertices around; false where no place is near all.
-  bool find_stranded_points(VertexId u, VertexId v) {
-    hosts_.clear();
+  /// Finds the samples of u and v that no vertex around covers; false where no place is within the reach of
+  /// all.
+  bool find_uncovered_samples(VertexId u, VertexId v) {
+    candidates_.clear();
     for (const auto* near : {&near_u_, &near_v_}) {
       for (const SurfaceNeighbour& s : *near) {
         if (s.vertex != u && s.vertex != v &&
-            std::find(hosts_.begin(), hosts_.end(), s.vertex) == hosts_.end()) {
-          hosts_.push_back(s.vertex);
+            std::find(candidates_.begin(), candidates_.end(), s.vertex) == candidates_.end()) {
+          candidates_.push_back(s.vertex);
         }
       }
     }
-    if (!patch_.cover.find_stranded(u, v, hosts_, mesh_, patch_.sets)) {
+    if (!patch_.cover.find_uncovered(u, v, candidates_, mesh_, patch_.sets)) {
       return false;
     }
     pairs_.clear();
@@ -398,8 +400,8 @@ class EdgeCollapser {
     return true;
   }
 
-  /// Projects a place by turns into reach of the stranded points and onto the boundaries; false when it does
-  /// not come to rest.
+  /// Projects a place by turns into the reach of the uncovered samples and onto the boundaries; false when
+  /// that does not converge.
   bool find_place(Vec3& place) {
     constexpr int kTurns = 5;
     for (int turn = 0; turn < kTurns; ++turn) {
@@ -408,14 +410,14 @@ class EdgeCollapser {
       }
       double deviation = 0;
       for (const auto& [inner, outer] : pairs_) {
-        const BoundarySample s = patch_.boundary.sample(place, inner, outer);
-        if (!std::isfinite(s.deviation_mm)) {
+        const BoundaryDistance near = patch_.boundaries.distance(place, inner, outer);
+        if (!std::isfinite(near.deviation_mm)) {
           return false;
         }
-        deviation = std::max(deviation, s.deviation_mm);
-        place -= s.distance_mm * s.normal;
+        deviation = std::max(deviation, near.deviation_mm);
+        place -= near.distance_mm * near.normal;
       }
-      if (deviation <= patch_.guards.deviation_mm && farthest_stranded(place).second <= 1) {
+      if (deviation <= patch_.guards.deviation_mm && farthest_uncovered(place).second <= 1) {
         keep_volume(place);
         return true;
       }
@@ -423,7 +425,8 @@ class EdgeCollapser {
     return false;
   }
 
-  /// Shifts a place to where neither side of the one interface loses volume, if it is near and in reach.
+  /// Shifts a place to where neither side of the one interface loses volume, if that is near and within the
+  /// reach.
   void keep_volume(Vec3& place) const {
     if (pairs_.size() != 1) {
       return;
@@ -448,7 +451,7 @@ class EdgeCollapser {
       return;
     }
     const Vec3 to = place + (lost / squared) * area;
-    if (farthest_stranded(to).second <= 1) {
+    if (farthest_uncovered(to).second <= 1) {
       place = to;
     }
   }
@@ -456,23 +459,24 @@ class EdgeCollapser {
   bool draw_into_reach(Vec3& place) const {
     constexpr int kSteps = 10;
     for (int step = 0; step < kSteps; ++step) {
-      const auto& [point, ratio] = farthest_stranded(place);
+      const auto& [sample, ratio] = farthest_uncovered(place);
       if (ratio <= 1) {
         return true;
       }
-      const Vec3 centre = patch_.cover.centre(point);
+      const Vec3 centre = patch_.cover.centre(sample);
       place = centre + (0.98 / std::sqrt(ratio)) * (place - centre);
     }
     return false;
   }
 
-  /// The stranded point that is farthest out of reach, and its squared distance as a part of what it may be.
-  [[nodiscard]] std::pair<PointId, double> farthest_stranded(const Vec3& place) const {
-    std::pair<PointId, double> farthest = {kNoPoint, 0};
-    for (const PointId p : patch_.cover.stranded()) {
-      const double ratio = (patch_.cover.centre(p) - place).squared_norm() / patch_.cover.reach_squared(p);
+  /// The uncovered sample that is farthest beyond its reach, and its squared distance as a multiple of the
+  /// squared reach.
+  [[nodiscard]] std::pair<SampleId, double> farthest_uncovered(const Vec3& place) const {
+    std::pair<SampleId, double> farthest = {kNoSample, 0};
+    for (const SampleId s : patch_.cover.uncovered()) {
+      const double ratio = (patch_.cover.centre(s) - place).squared_norm() / patch_.cover.reach_squared(s);
       if (ratio > farthest.second) {
-        farthest = {p, ratio};
+        farthest = {s, ratio};
       }
     }
     return farthest;
@@ -487,13 +491,13 @@ class EdgeCollapser {
     const VertexId v = to.vertex;
     return !folds(patch_.facets, mesh_.point(u), v, to.at) &&
            !folds(patch_.facets_other, mesh_.point(v), u, to.at) && keeps_volumes(u, v, to.at, true) &&
-           !facets_stray(patch_.facets, mesh_.point(u), v, to.at) &&
-           !facets_stray(patch_.facets_other, mesh_.point(v), u, to.at);
+           !facets_deviate(patch_.facets, mesh_.point(u), v, to.at) &&
+           !facets_deviate(patch_.facets_other, mesh_.point(v), u, to.at);
   }
 
-  /// True when a facet that stays gets farther from the boundary than allowed and than it was.
-  [[nodiscard]] bool facets_stray(const std::vector<FacetAt>& facets, const Vec3& from, VertexId gone,
-                                  const Vec3& to) const {
+  /// True when a facet that stays deviates more from the boundary than allowed and than before.
+  [[nodiscard]] bool facets_deviate(const std::vector<FacetAt>& facets, const Vec3& from, VertexId gone,
+                                    const Vec3& to) const {
     return any_staying(facets, gone, [&](const FacetAt& f, const Vec3& p, const Vec3& q) {
       const double after = patch_.facet_deviation(to, p, q, f.inner, f.outer);
       return after > patch_.guards.deviation_mm &&
@@ -505,7 +509,7 @@ class EdgeCollapser {
     const VertexId v = to.vertex;
     const Vec3 before = mesh_.point(v);
     mesh_.move(v, to.at);
-    if (!draw_tets(u, v)) {
+    if (!replace_vertex(u, v)) {
       mesh_.move(v, before);
       return false;
     }
@@ -516,7 +520,7 @@ class EdgeCollapser {
   }
 
   bool collapse(VertexId u, VertexId v) {
-    if (!draw_tets(u, v)) {
+    if (!replace_vertex(u, v)) {
       return false;
     }
     if (on_facets_) {
@@ -525,8 +529,8 @@ class EdgeCollapser {
     return true;
   }
 
-  /// Gives the tets of u to v; those of both vanish.
-  bool draw_tets(VertexId u, VertexId v) {
+  /// Replaces u by v in the tets of u; the tets of both vanish.
+  bool replace_vertex(VertexId u, VertexId v) {
     patch_.fresh.clear();
     for (const TetId t : patch_.star) {
       if (!mesh_.has_node(t, v)) {
@@ -557,9 +561,9 @@ class EdgeCollapser {
   double longest_squared_ = 0;  // of new edges
   std::vector<SurfaceNeighbour> near_u_, near_v_;
   std::vector<std::pair<double, VertexId>> targets_;
-  std::vector<VertexId> on_edge_, hosts_;
+  std::vector<VertexId> on_edge_, candidates_;
   std::vector<std::array<MaterialId, 2>> pairs_;
-  LocalVolumeChange shares_;
+  LocalVolumeChange volumes_;
   std::array<VertexId, 2> merging_{};
 };
 

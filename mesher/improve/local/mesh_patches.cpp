@@ -14,9 +14,9 @@ namespace {
 constexpr std::uint32_t kShared = 0xFFFFFFFEU;
 constexpr VertexId kNew = 0x80000000U;
 constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
-constexpr std::size_t kFewTets = 2500;  // from so many on there are two patches, for two threads
+constexpr std::size_t kFewTets = 2500;  // a mesh of this many tets or more has two patches, for two threads
 
-/// Three axes at right angles, others in every round.
+/// Three orthogonal axes, turned in every round.
 Mat3 axes_of_round(int round) {
   const double turn = 0.7 * round + 0.2;
   const double tilt = 0.5 * round + 0.1;
@@ -120,36 +120,36 @@ std::vector<std::uint32_t> owners(const MaterialMesh& mesh, const std::vector<st
   return owner;
 }
 
-/// Points by host, in compressed rows.
-struct PointsOfVertices {
+/// The samples that each vertex covers, in compressed rows.
+struct SamplesOfVertices {
   std::vector<std::uint32_t> first;
-  std::vector<PointId> points;
+  std::vector<SampleId> samples;
 
-  PointsOfVertices(const std::vector<VertexId>& hosts, std::size_t vertices) : first(vertices + 1, 0) {
-    for (const VertexId host : hosts) {
-      first[host == kNoVertex ? 0 : host + 1] += host == kNoVertex ? 0 : 1;
+  SamplesOfVertices(const std::vector<VertexId>& covering, std::size_t vertices) : first(vertices + 1, 0) {
+    for (const VertexId v : covering) {
+      first[v == kNoVertex ? 0 : v + 1] += v == kNoVertex ? 0 : 1;
     }
     for (std::size_t v = 0; v < vertices; ++v) {
       first[v + 1] += first[v];
     }
-    points.resize(first.back());
+    samples.resize(first.back());
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (PointId p = 0; p < hosts.size(); ++p) {
-      if (hosts[p] != kNoVertex) {
-        points[next[hosts[p]]++] = p;
+    for (SampleId s = 0; s < covering.size(); ++s) {
+      if (covering[s] != kNoVertex) {
+        samples[next[covering[s]]++] = s;
       }
     }
   }
 };
 
-/// One part as a mesh of its own: its vertices in ascending order of the whole mesh's.
+/// One part as a separate mesh: its vertices in ascending order of the whole mesh's.
 struct LocalMesh {
   std::vector<VertexId> vertices;
   std::vector<Vec3> points;
   TetNodes tets;
   std::vector<MaterialId> materials;
   std::vector<std::uint8_t> locked;
-  std::vector<std::uint32_t> tets_at;  // tets round each vertex
+  std::vector<std::uint32_t> tets_at;  // number of tets around each vertex
 
   LocalMesh(const MaterialMesh& mesh, const std::vector<TetId>& part,
             const std::vector<std::uint32_t>& owner) {
@@ -176,7 +176,7 @@ struct LocalMesh {
   }
 };
 
-/// Materials of the stars; vertices whose star hangs together by less than faces are locked.
+/// Finds the materials of the stars; vertices whose star is not connected by faces are locked.
 void set_up_vertices(Patch& patch, const std::vector<std::uint32_t>& tets_at) {
   for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
     if (patch.mesh.locked(v)) {
@@ -217,7 +217,7 @@ struct Cut {
   }
 };
 
-/// The parts in the order in which threads are to take them, so that no large one is left for the end.
+/// The order in which threads take the parts: the largest first, so that no large one is left for the end.
 std::vector<std::size_t> largest_first(const std::vector<std::vector<TetId>>& parts) {
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -226,22 +226,13 @@ std::vector<std::size_t> largest_first(const std::vector<std::vector<TetId>>& pa
   return order;
 }
 
-Patch make_patch(LocalMesh& local, const PatchRules& rules, const PointsOfVertices& hosted) {
-  Patch patch{TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
-                         std::move(local.locked)),
-              SurfaceCover(rules.points, rules.reach_mm, rules.far_reach_mm),
-              {},
-              rules.boundary,
-              rules.guards,
-              {},
-              {},
-              {},
-              {},
-              {},
-              {},
-              {},
-              {},
-              {}};
+Patch make_patch(LocalMesh& local, const PatchRules& rules, const SamplesOfVertices& covered) {
+  Patch patch{.mesh = TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
+                                 std::move(local.locked)),
+              .cover = SurfaceCover(rules.samples, rules.reach_mm, rules.own_reach_mm),
+              .sets = {},
+              .boundaries = rules.boundaries,
+              .guards = rules.guards};
   for (std::size_t v = 0; !rules.longest_mm.empty() && v < local.vertices.size(); ++v) {
     patch.longest_mm.push_back(rules.longest_mm[local.vertices[v]]);
   }
@@ -250,19 +241,21 @@ Patch make_patch(LocalMesh& local, const PatchRules& rules, const PointsOfVertic
   set_up_vertices(patch, local.tets_at);
   for (VertexId v = 0; v < local.vertices.size(); ++v) {
     const VertexId global = local.vertices[v];
-    for (std::uint32_t i = hosted.first[global]; !patch.mesh.locked(v) && i < hosted.first[global + 1]; ++i) {
-      patch.cover.add(v, hosted.points[i]);
+    for (std::uint32_t i = covered.first[global]; !patch.mesh.locked(v) && i < covered.first[global + 1];
+         ++i) {
+      patch.cover.add(v, covered.samples[i]);
     }
   }
   return patch;
 }
 
-/// The places of the patch's own vertices, and the points they host.
-void give_back(const Patch& patch, const LocalMesh& local, MaterialMesh& mesh, std::vector<VertexId>& hosts) {
+/// Copies the places of the patch's own vertices, and which samples they cover, back to the whole.
+void give_back(const Patch& patch, const LocalMesh& local, MaterialMesh& mesh,
+               std::vector<VertexId>& covering) {
   for (VertexId v = 0; v < local.vertices.size(); ++v) {
     if (!patch.mesh.locked(v)) {
       mesh.points[local.vertices[v]] = patch.mesh.point(v);
-      patch.cover.for_each(v, [&](PointId point) { hosts[point] = local.vertices[v]; });
+      patch.cover.for_each(v, [&](SampleId s) { covering[s] = local.vertices[v]; });
     }
   }
 }
@@ -305,19 +298,19 @@ void join(std::vector<PatchResult>& results, MaterialMesh& mesh) {
 
 }  // namespace
 
-void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules, int round,
-                        const std::function<void(Patch&)>& improve) {
+void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& covering, const PatchRules& rules,
+                        int round, const std::function<void(Patch&)>& improve) {
   const Cut cut(mesh, rules, round);
-  const PointsOfVertices hosted(hosts, mesh.points.size());
+  const SamplesOfVertices covered(covering, mesh.points.size());
   std::vector<PatchResult> results(cut.parts.size());
   const std::vector<std::size_t> order = largest_first(cut.parts);
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::size_t p = order[i];
     LocalMesh local(mesh, cut.parts[p], cut.owner);
-    Patch patch = make_patch(local, rules, hosted);
+    Patch patch = make_patch(local, rules, covered);
     improve(patch);
-    give_back(patch, local, mesh, hosts);
+    give_back(patch, local, mesh, covering);
     results[p] = result_of(patch, local);
   }
   join(results, mesh);
@@ -357,8 +350,8 @@ void grow(const MaterialMesh& mesh, std::vector<std::uint8_t>& chosen) {
 
 }  // namespace
 
-std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules,
-                                  int round, double goal_sine_squared, int rings,
+std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& covering,
+                                  const PatchRules& rules, int round, double goal_sine_squared, int rings,
                                   const std::function<void(Patch&)>& improve) {
   std::vector<std::uint8_t> chosen(mesh.tets.size(), 0);
   const std::size_t bad = mark_bad(mesh, goal_sine_squared, chosen);
@@ -386,7 +379,7 @@ std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& hos
   }
   PatchRules near_rules = rules;
   near_rules.locked = locked;
-  improve_in_patches(near, hosts, near_rules, round, improve);
+  improve_in_patches(near, covering, near_rules, round, improve);
   mesh.points = std::move(near.points);
   mesh.tets.resize(kept);
   mesh.materials.resize(kept);

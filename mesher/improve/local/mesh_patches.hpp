@@ -1,8 +1,8 @@
-// A mesh cut in patches that threads improve side by side, and put together again.
+// A mesh is cut into patches that threads improve side by side, and put together again.
 //
 // The cuts depend on the mesh and the round alone, never on threads or time, and vertices shared by patches
-// are locked, so the result is the same at any thread count. Each round cuts elsewhere, so that what was
-// locked in one is free in the next.
+// are locked, so the result is the same at any thread count. Each round cuts elsewhere, so that vertices
+// locked in one round are free in the next.
 #pragma once
 
 #include <functional>
@@ -13,26 +13,26 @@
 namespace cbc3d {
 
 struct PatchRules {
-  const Boundary& boundary;
+  ShiftedBoundaries boundaries;
   Guards guards;
-  const std::vector<InterfacePoint>& points;
-  double reach_mm = 0;                        ///< of a host
-  std::size_t patch_tets = 30000;             ///< tets of a patch, about
-  std::span<const float> far_reach_mm = {};   ///< a point's own reach where above 0; empty: none has one
-  std::span<const std::uint8_t> locked = {};  ///< vertices that must stay; empty: none
-  std::span<const double> longest_mm = {};    ///< Patch::longest_mm of every vertex; empty: no limit
+  const std::vector<BoundarySample>& samples;  ///< to be kept covered
+  double reach_mm = 0;                         ///< within which a vertex covers a sample
+  std::size_t patch_tets = 30000;              ///< tets of a patch, about
+  std::span<const float> own_reach_mm = {};    ///< a sample's own reach where above 0; empty: none has one
+  std::span<const std::uint8_t> locked = {};   ///< vertices that must stay; empty: none
+  std::span<const double> longest_mm = {};     ///< Patch::longest_mm of every vertex; empty: no limit
 };
 
-/// Cuts the mesh, calls improve(patch) for every patch in parallel, and puts the results back. `hosts` has
-/// the host of every point, kNoVertex for none, and is kept up to date. Vertices out of use stay in
-/// `mesh.points`.
-void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules, int round,
-                        const std::function<void(Patch&)>& improve);
+/// Cuts the mesh, calls improve(patch) for every patch in parallel, and puts the results back. `covering` has
+/// the covering vertex of every sample, kNoVertex for none, and is kept up to date. Vertices out of use stay
+/// in `mesh.points`.
+void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& covering, const PatchRules& rules,
+                        int round, const std::function<void(Patch&)>& improve);
 
-/// The same for the tets below the goal and `rings` layers of tets round them alone: the rest is not looked
-/// at, so that a mesh with few bad tets takes little time. Returns the number of tets below the goal.
-std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& hosts, const PatchRules& rules,
-                                  int round, double goal_sine_squared, int rings,
+/// The same for the tets below the goal and `rings` layers of tets around them alone: the rest is left as it
+/// is, so that a mesh with few bad tets takes little time. Returns the number of tets below the goal.
+std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& covering,
+                                  const PatchRules& rules, int round, double goal_sine_squared, int rings,
                                   const std::function<void(Patch&)>& improve);
 
 }  // namespace cbc3d

@@ -14,8 +14,8 @@
 namespace cbc3d {
 namespace {
 
+using testing::covered_count;
 using testing::expect_sound;
-using testing::hosted;
 using testing::kGoal;
 using testing::kGood;
 using testing::kRelax;
@@ -27,7 +27,7 @@ TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
   const auto volumes = trial.volumes();
   const std::size_t tets = trial.mesh.tets.size();
   trial.rules.patch_tets = 200;
-  const std::size_t hosts = hosted(trial);
+  const std::size_t covered = covered_count(trial);
   std::atomic<std::size_t> seen = 0;
   std::atomic<int> patches = 0;
   trial.apply([&](Patch& patch) {  // nothing is done, nothing changes
@@ -37,7 +37,7 @@ TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
   EXPECT_EQ(seen, tets);
   EXPECT_GT(patches, 4);
   EXPECT_EQ(trial.mesh.tets.size(), tets);
-  expect_sound(trial, hosts);
+  expect_sound(trial, covered);
   for (std::size_t m = 1; m < volumes.size(); ++m) {
     EXPECT_NEAR(trial.volumes()[m], volumes[m], 1e-9 * volumes[m]);
   }
@@ -48,11 +48,11 @@ TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
           relax_vertices(p, kRelax);
           remove_edges(p, kGood);
           flatten_interfaces(p, kGoal);
-          collapse_edges(p, {kGoal, 2.5, nullptr, false});
-          climb_vertices(p, kGoal);
+          collapse_edges(p, {.threshold_sine_squared = kGoal, .longest_growth = 2.5});
+          optimize_worst_angles(p, kGoal);
         },
         round);
-    expect_sound(trial, hosts);
+    expect_sound(trial, covered);
     EXPECT_EQ(trial.characteristics(), chi);
   }
   EXPECT_LT(trial.mesh.tets.size(), tets * 3 / 4);

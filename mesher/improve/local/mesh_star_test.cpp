@@ -13,13 +13,13 @@ namespace {
 
 TEST(MeshStar, HoldsTheTetsOfTheVertex) {
   const testing::KuhnBox box(3);
-  const VertexTets around = tets_of_vertices(box.tets, box.points.size());
+  const VertexCells around = tets_of_vertices(box.tets, box.points.size());
   for (VertexId v = 0; v < box.points.size(); ++v) {
     std::vector<TetId> wanted;
     for (TetId t = 0; t < box.tets.size(); ++t) {
       if (std::count(box.tets[t].begin(), box.tets[t].end(), v) > 0) wanted.push_back(t);
     }
-    const auto star = star_of(around, v);
+    const auto star = around.of(v);
     EXPECT_EQ(std::vector<TetId>(star.begin(), star.end()), wanted);
   }
 }

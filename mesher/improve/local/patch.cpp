@@ -6,9 +6,9 @@ namespace cbc3d {
 
 double Patch::facet_deviation(const Vec3& p, const Vec3& q, const Vec3& r, MaterialId inner,
                               MaterialId outer) const {
-  double largest = boundary.sample((p + q + r) / 3, inner, outer).deviation_mm;
+  double largest = boundaries.distance((p + q + r) / 3, inner, outer).deviation_mm;
   for (const Vec3& middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) {
-    largest = std::max(largest, boundary.sample(middle, inner, outer).deviation_mm);
+    largest = std::max(largest, boundaries.distance(middle, inner, outer).deviation_mm);
   }
   return largest;
 }

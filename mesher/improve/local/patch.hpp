@@ -1,24 +1,36 @@
-// A piece of a mesh that one thread improves on its own, with all that the operations on it need.
+// A piece of a mesh that one thread improves by itself, with all that the operations on it need.
 #pragma once
 
-#include "mesher/domain/boundary.hpp"
+#include "mesher/domain/domain.hpp"
 #include "mesher/improve/local/surface_cover.hpp"
 #include "mesher/improve/local/tet_complex.hpp"
 
 namespace cbc3d {
 
-/// What no operation may worsen beyond.
+/// The limits that no operation may exceed, unless they were exceeded before.
 struct Guards {
   double deviation_mm =
-      0.3;              ///< vertices, edges and centres of facets from the boundary, unless farther before
+      0.3;              ///< of vertices, and of the centres and side middles of facets, from the boundary
   double scale_mm = 1;  ///< distances from the boundary count in this unit
+};
+
+/// The domain's boundaries, moved outwards by an offset for each material: smooth surfaces lose volume, and
+/// the offsets make up for it. Both must outlive this.
+struct ShiftedBoundaries {
+  const Domain& domain;
+  std::span<const double> offset_mm = {};  ///< of every material; empty: nothing is moved
+
+  [[nodiscard]] BoundaryDistance distance(const Vec3& x, MaterialId a, MaterialId b) const {
+    const BoundaryDistance near = domain.boundary_distance(x, a, b);
+    return offset_mm.empty() ? near : near.shifted(offset_mm[a] - offset_mm[b]);
+  }
 };
 
 struct Patch {
   TetComplex mesh;
   SurfaceCover cover;
   std::vector<MaterialSet> sets;  ///< materials of the stars; size 0 at locked vertices
-  const Boundary& boundary;
+  ShiftedBoundaries boundaries;
   Guards guards;
 
   [[nodiscard]] bool on_boundary(VertexId v) const { return sets[v].size > 1; }
@@ -29,15 +41,15 @@ struct Patch {
   void renew_sets(std::span<const FreshTet> fresh);
   void renew_sets_of(std::span<const VertexId> vertices);
 
-  // Scratch of the operations.
-  std::vector<TetId> star, star_other;
-  std::vector<FacetAt> facets, facets_other;
-  std::vector<VertexId> around, around_other;
-  std::vector<FreshTet> fresh;
-  EdgeRing ring, ring_other;
-
   /// No inner vertex vanishes for edges longer than the mean of this at their ends, mm; empty: no limit.
   std::vector<double> longest_mm = {};
+
+  // Scratch of the operations.
+  std::vector<TetId> star = {}, star_other = {};
+  std::vector<FacetAt> facets = {}, facets_other = {};
+  std::vector<VertexId> around = {}, around_other = {};
+  std::vector<FreshTet> fresh = {};
+  EdgeRing ring = {}, ring_other = {};
 };
 
 }  // namespace cbc3d

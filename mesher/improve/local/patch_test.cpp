@@ -18,8 +18,8 @@ namespace cbc3d {
 namespace {
 
 using testing::cavity_and_torus;
+using testing::covered_count;
 using testing::expect_sound;
-using testing::hosted;
 using testing::kGoal;
 using testing::kGood;
 using testing::kRelax;
@@ -29,8 +29,8 @@ using testing::Trial;
 TEST(Patch, OperationsKeepAllThatTheGuardsPromise) {
   for (const LabelImage& image : {touching_balls(), cavity_and_torus()}) {
     Trial trial(image);
-    const std::size_t hosts = hosted(trial);
-    EXPECT_GT(hosts, trial.points.size() * 9 / 10);
+    const std::size_t covered = covered_count(trial);
+    EXPECT_GT(covered, trial.samples.size() * 9 / 10);
     const std::vector<long> chi = trial.characteristics();
     if (image.frame.size[0] == 42) {
       ASSERT_EQ(chi, (std::vector<long>{4, 0}));
@@ -42,7 +42,7 @@ TEST(Patch, OperationsKeepAllThatTheGuardsPromise) {
                            const std::function<std::size_t(Patch&)>& operation) {
         trial.apply([&](Patch& patch) { done[which] += operation(patch); }, round);
         SCOPED_TRACE("operation " + std::to_string(which));
-        expect_sound(trial, hosts);
+        expect_sound(trial, covered);
         EXPECT_EQ(trial.characteristics(), chi);
         const double after = trial.worst_sine_squared();
         EXPECT_GE(after, std::min(worst, floor) * (1 - 1e-9));
@@ -51,10 +51,14 @@ TEST(Patch, OperationsKeepAllThatTheGuardsPromise) {
       run(0, 0, [](Patch& p) { return relax_vertices(p, kRelax); });
       run(1, 1, [](Patch& p) { return remove_edges(p, kGood); });
       run(2, 0.999 * std::min(worst, kGoal), [](Patch& p) { return flatten_interfaces(p, kGoal); });
-      run(3, kGoal, [](Patch& p) { return collapse_edges(p, {kGoal, 2.5, nullptr, false}); });
+      run(3, kGoal, [](Patch& p) {
+        return collapse_edges(p, {.threshold_sine_squared = kGoal, .longest_growth = 2.5});
+      });
       run(0, 0, [](Patch& p) { return relax_vertices(p, kRelax); });
-      run(4, 1, [](Patch& p) { return climb_vertices(p, kGood); });
-      run(5, 1, [](Patch& p) { return collapse_edges(p, {kGood, 2.5, nullptr, true}); });
+      run(4, 1, [](Patch& p) { return optimize_worst_angles(p, kGood); });
+      run(5, 1, [](Patch& p) {
+        return collapse_edges(p, {.threshold_sine_squared = kGood, .longest_growth = 2.5, .only_bad = true});
+      });
     }
     for (std::size_t which = 0; which < 5; ++which) {
       EXPECT_GT(done[which], 0U) << which;
@@ -66,7 +70,7 @@ TEST(Patch, OperationsLeaveVolumesAloneWhereTheBoundaryIsLocked) {
   Trial trial(touching_balls());
   const auto before = trial.volumes();
   const std::size_t tets = trial.mesh.tets.size();
-  const std::size_t hosts = hosted(trial);
+  const std::size_t covered = covered_count(trial);
   const auto surfaces = [&] {
     return testing::surface_of_label(trial.mesh.tets, trial.mesh.materials, MaterialId{1});
   };
@@ -76,14 +80,14 @@ TEST(Patch, OperationsLeaveVolumesAloneWhereTheBoundaryIsLocked) {
     for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
       if (patch.on_boundary(v)) patch.mesh.lock(v);
     }
-    done += relax_vertices(patch, kRelax) + remove_edges(patch, kGood) + climb_vertices(patch, kGood) +
-            collapse_edges(patch, {0.05, 2.5, nullptr, false});
+    done += relax_vertices(patch, kRelax) + remove_edges(patch, kGood) + optimize_worst_angles(patch, kGood) +
+            collapse_edges(patch, {.threshold_sine_squared = 0.05, .longest_growth = 2.5});
     EXPECT_EQ(flatten_interfaces(patch, 0), 0U);
     EXPECT_EQ(project_far_vertices(patch, kRelax), 0U);
   });
   EXPECT_GT(done, 30U);
   EXPECT_NE(trial.mesh.tets.size(), tets);
-  expect_sound(trial, hosts);
+  expect_sound(trial, covered);
   EXPECT_EQ(surfaces(), surface);
   for (std::size_t m = 1; m < before.size(); ++m) {
     EXPECT_NEAR(trial.volumes()[m], before[m], 1e-9 * before[m]);

@@ -29,14 +29,14 @@ Link octahedron() {
 
 TEST(StarQuality, IsTheWorstAngleOrBelowMinusOneAndRisesWithTheVolume) {
   const Link link = octahedron();
-  EXPECT_NEAR(worst_height(link, {0, 0, 0}, -1e300), height({0, 0, 0}, link[0]), 1e-12);
+  EXPECT_NEAR(worst_quality(link, {0, 0, 0}, -1e300), quality({0, 0, 0}, link[0]), 1e-12);
   for (const auto& face : link) {
-    EXPECT_EQ(height({0, 0, 0}, face), min_sine_squared({0, 0, 0}, face[0], face[1], face[2]));
-    EXPECT_GT(height({0, 0, 0}, face), 0);
+    EXPECT_EQ(quality({0, 0, 0}, face), min_sine_squared({0, 0, 0}, face[0], face[1], face[2]));
+    EXPECT_GT(quality({0, 0, 0}, face), 0);
   }
   double last = -1;
   for (const double far : {1.0, 1.5, 2.0, 3.0}) {  // out through a face: the farther the worse
-    const double now = height(far * Vec3{1, 1, 1}, link[0]);
+    const double now = quality(far * Vec3{1, 1, 1}, link[0]);
     EXPECT_LT(now, last);
     last = now;
   }
@@ -47,11 +47,11 @@ TEST(StarQuality, TheSearchIsGivenUpBelowTheFloor) {
   std::mt19937 random(1);
   for (int n = 0; n < 100; ++n) {
     const Vec3 x = testing::draw_point(random, -0.4, 0.4);
-    const double worst = worst_height(link, x, -1e300);
-    EXPECT_EQ(worst_height(link, x, worst - 1e-9), worst);
-    EXPECT_LE(worst_height(link, x, worst + 0.1), worst + 0.1);
+    const double worst = worst_quality(link, x, -1e300);
+    EXPECT_EQ(worst_quality(link, x, worst - 1e-9), worst);
+    EXPECT_LE(worst_quality(link, x, worst + 0.1), worst + 0.1);
     double least = 1;
-    for (const auto& face : link) least = std::min(least, height(x, face));
+    for (const auto& face : link) least = std::min(least, quality(x, face));
     EXPECT_EQ(worst, least);
   }
 }
@@ -63,8 +63,8 @@ TEST(StarQuality, TheWayUpLiftsTheWorstTet) {
     const Vec3 x = testing::draw_point(random, 0.1, 0.25);  // near one face, whose tet is the worst
     const Vec3 up = steepest_ascent(link, x, 1);
     EXPECT_NEAR(up.norm(), 1, 1e-9);
-    EXPECT_GT(worst_height(link, x + 1e-3 * up, -1e300), worst_height(link, x, -1e300));
-    const auto directions = climb_directions(up);
+    EXPECT_GT(worst_quality(link, x + 1e-3 * up, -1e300), worst_quality(link, x, -1e300));
+    const auto directions = search_directions(up);
     EXPECT_EQ(directions[0], up);
     Vec3 sum;
     for (const Vec3& d : directions) sum += d;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/domain/image_boundary.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/improve/local/mesh_patches.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
 #include "mesher/lattice/testing_lattice_mesh.hpp"
@@ -21,7 +21,7 @@ inline LabelImage ball() {
                     [](const Vec3& p) { return (p - kBallCentre).norm() < 16.2 ? 1 : 0; });
 }
 
-/// Two labels in a block that is cut along a plane at a slant.
+/// Two labels in a block, on the two sides of an oblique plane.
 inline LabelImage cut_block() {
   return make_image({30, 26, 24}, {1, 1, 1.2}, 2, [](const Vec3& p) {
     const bool inside = p.x > 3 && p.x < 26 && p.y > 3 && p.y < 22 && p.z > 3 && p.z < 24;
@@ -29,29 +29,33 @@ inline LabelImage cut_block() {
   });
 }
 
-/// A mesh of the ball, the lattice's or a finished one, whose vertices have been drawn to the image's
+/// A mesh of the ball, the lattice's or a finished one, whose vertices have moved to the image's
 /// boundary.
 struct FittedBall {
   LabelImage image = ball();
   MaterialMesh mesh;
-  std::vector<InterfacePoint> points = interface_points(image);
-  ImageBoundary boundary{image, {}};
-  std::vector<VertexId> hosts;
+  ImageDomain domain{image};
+  std::vector<VertexId> covering;
 
   FittedBall(MaterialMesh of, double deviation_mm) : mesh(std::move(of)) {
     const auto sets = vertex_materials(mesh.tets, mesh.materials,
                                        tet_neighbours(mesh.tets, mesh.points.size()), mesh.points.size());
-    hosts = nearest_hosts(points, mesh.points, sets, 1.6);
+    covering = nearest_covering_vertices(domain.samples(), mesh.points, sets, 1.6);
     for (int sweep = 0; sweep < 8; ++sweep) {
-      relax({1000, 0.5, 0}, deviation_mm);
+      relax({.surface_weight = 1000, .max_step = 0.5, .skip_below_mm = 0}, deviation_mm);
     }
   }
 
   std::size_t relax(const RelaxOptions& options, double deviation_mm) {
     const double diagonal = image.frame.voxel_diagonal_mm();
     std::size_t moved = 0;
-    improve_in_patches(mesh, hosts, {boundary, {deviation_mm, diagonal}, points, 1.6, 10000000}, 0,
-                       [&](Patch& patch) { moved += relax_vertices(patch, options); });
+    improve_in_patches(mesh, covering,
+                       {.boundaries = {domain},
+                        .guards = {.deviation_mm = deviation_mm, .scale_mm = diagonal},
+                        .samples = domain.samples(),
+                        .reach_mm = 1.6,
+                        .patch_tets = 10000000},
+                       0, [&](Patch& patch) { moved += relax_vertices(patch, options); });
     return moved;
   }
 
@@ -63,7 +67,7 @@ struct FittedBall {
     std::map<VertexId, double> result;
     for (const FaceKey& f : surface()) {
       for (const VertexId v : f) {
-        result[v] = boundary.sample(mesh.points[v], 1, kBackground).deviation_mm;
+        result[v] = domain.boundary_distance(mesh.points[v], 1, kBackground).deviation_mm;
       }
     }
     return result;

@@ -4,26 +4,51 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "mesher/domain/boundary.hpp"
+#include "mesher/domain/domain.hpp"
 #include "mesher/improve/local/patch.hpp"
 
 namespace cbc3d::testing {
 
-/// A boundary that is everywhere, so that no guard for distances holds anything back.
-class BoundaryEverywhere : public Boundary {
+/// A domain whose boundaries are everywhere, so that no guard for distances holds anything back.
+class BoundaryEverywhere : public Domain {
  public:
-  [[nodiscard]] BoundarySample sample(const Vec3& /*x*/, MaterialId /*a*/, MaterialId /*b*/) const override {
+  [[nodiscard]] const std::vector<Label>& labels() const override { return labels_; }
+  [[nodiscard]] const std::vector<MaterialId>& label_of() const override { return label_of_; }
+  [[nodiscard]] const std::vector<double>& volumes_mm3() const override { return volumes_mm3_; }
+  [[nodiscard]] double scale_mm() const override { return 1; }
+  [[nodiscard]] double cell_mm3() const override { return 1; }
+  [[nodiscard]] double thin_reach_mm() const override { return std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] BoundaryDistance boundary_distance(const Vec3& /*x*/, MaterialId /*a*/,
+                                                   MaterialId /*b*/) const override {
     return {};
   }
+  [[nodiscard]] bool is_thin(const BoundarySample& /*sample*/) const override { return false; }
+  [[nodiscard]] MaterialId material_at(const Vec3& /*x*/) const override { return 1; }
+  [[nodiscard]] std::optional<Vec3> nearest_boundary(const Vec3& x, MaterialId /*material*/) const override {
+    return x;
+  }
+  [[nodiscard]] bool is_near_boundary(const Vec3& /*x*/, MaterialId /*material*/) const override {
+    return true;
+  }
+
+ protected:
+  [[nodiscard]] std::vector<BoundarySample> find_samples() const override { return {}; }
+
+ private:
+  std::vector<Label> labels_{0, 1};
+  std::vector<MaterialId> label_of_{0, 1};
+  std::vector<double> volumes_mm3_{0, 0};
 };
 
-/// A patch of a mesh whose points are to be covered by nobody.
-inline Patch make_patch(TetComplex mesh, const Boundary& boundary) {
-  static const std::vector<InterfacePoint> none;
+/// A patch of a mesh without samples to cover.
+inline Patch make_patch(TetComplex mesh, const Domain& domain) {
+  static const std::vector<BoundarySample> none;
   SurfaceCover cover(none, 1);
   cover.resize(mesh.vertex_count());
   std::vector<MaterialSet> sets(mesh.vertex_count());
@@ -34,8 +59,11 @@ inline Patch make_patch(TetComplex mesh, const Boundary& boundary) {
       sets[v] = mesh.materials(v, star);
     }
   }
-  return {
-      std::move(mesh), std::move(cover), std::move(sets), boundary, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  return {.mesh = std::move(mesh),
+          .cover = std::move(cover),
+          .sets = std::move(sets),
+          .boundaries = {domain},
+          .guards = {}};
 }
 
 /// `count` tets around the edge 0, 1 of length 2 h, whose ring is a regular polygon of radius 1.

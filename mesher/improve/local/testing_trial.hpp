@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "mesher/domain/image_boundary.hpp"
+#include "mesher/domain/image_domain.hpp"
 #include "mesher/improve/local/mesh_patches.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
@@ -20,18 +20,22 @@ namespace cbc3d::testing {
 struct Trial {
   LabelImage image;
   MaterialMesh mesh;
-  std::vector<InterfacePoint> points;
-  std::vector<VertexId> hosts;
-  ImageBoundary boundary;
+  ImageDomain domain;
+  const std::vector<BoundarySample>& samples;
+  std::vector<VertexId> covering;
   PatchRules rules;
 
   explicit Trial(const LabelImage& from)
       : image(from),
         mesh(lattice_mesh(from)),
-        points(interface_points(image)),
-        boundary(image, {}),
-        rules{boundary, {0.15 * diagonal(), diagonal()}, points, 0.9 * diagonal(), 10000000} {
-    hosts = nearest_hosts(points, mesh.points, sets(), rules.reach_mm);
+        domain(image),
+        samples(domain.samples()),
+        rules{.boundaries = {domain},
+              .guards = {.deviation_mm = 0.15 * diagonal(), .scale_mm = diagonal()},
+              .samples = samples,
+              .reach_mm = 0.9 * diagonal(),
+              .patch_tets = 10000000} {
+    covering = nearest_covering_vertices(samples, mesh.points, sets(), rules.reach_mm);
   }
 
   [[nodiscard]] double diagonal() const { return image.frame.voxel_diagonal_mm(); }
@@ -40,7 +44,7 @@ struct Trial {
                             mesh.points.size());
   }
   void apply(const std::function<void(Patch&)>& operation, int round = 0) {
-    improve_in_patches(mesh, hosts, rules, round, operation);
+    improve_in_patches(mesh, covering, rules, round, operation);
   }
 
   [[nodiscard]] double worst_sine_squared() const {
@@ -69,9 +73,9 @@ struct Trial {
   }
 };
 
-/// Positive, conforming, every label a manifold, hosts within reach and on their interface, none of them
-/// lost.
-inline void expect_sound(const Trial& trial, std::size_t hosted) {
+/// Expects positive and conforming tets, manifold labels, and as many covered samples as before, each within
+/// the reach of its vertex, which is on its interface.
+inline void expect_sound(const Trial& trial, std::size_t covered) {
   EXPECT_EQ(inverted_tets(trial.mesh.tets, trial.mesh.points), 0U);
   EXPECT_EQ(crowded_faces(trial.mesh.tets), 0U);
   for (MaterialId m = 1, end = static_cast<MaterialId>(trial.image.material_count()); m < end; ++m) {
@@ -82,25 +86,25 @@ inline void expect_sound(const Trial& trial, std::size_t hosted) {
   const auto sets = trial.sets();
   std::size_t found = 0;
   std::size_t out_of_reach = 0;
-  for (std::size_t p = 0; p < trial.points.size(); ++p) {
-    const VertexId host = trial.hosts[p];
-    if (host != kNoVertex) {
+  for (std::size_t p = 0; p < trial.samples.size(); ++p) {
+    const VertexId v = trial.covering[p];
+    if (v != kNoVertex) {
       ++found;
-      const double distance = (trial.mesh.points[host] - trial.points[p].centre()).norm();
+      const double distance = (trial.mesh.points[v] - trial.samples[p].centre()).norm();
       out_of_reach +=
-          distance > trial.rules.reach_mm * (1 + 1e-12) || !trial.points[p].is_on(sets[host]) ? 1 : 0;
+          distance > trial.rules.reach_mm * (1 + 1e-12) || !trial.samples[p].is_on(sets[v]) ? 1 : 0;
     }
   }
   EXPECT_EQ(out_of_reach, 0U);
-  EXPECT_EQ(found, hosted);
+  EXPECT_EQ(found, covered);
 }
 
-inline std::size_t hosted(const Trial& trial) {
-  return trial.points.size() -
-         static_cast<std::size_t>(std::count(trial.hosts.begin(), trial.hosts.end(), kNoVertex));
+inline std::size_t covered_count(const Trial& trial) {
+  return trial.samples.size() -
+         static_cast<std::size_t>(std::count(trial.covering.begin(), trial.covering.end(), kNoVertex));
 }
 
-inline const RelaxOptions kRelax = {1000, 0.5, 0};
+inline const RelaxOptions kRelax = {.surface_weight = 1000, .max_step = 0.5, .skip_below_mm = 0};
 inline const double kGood = sine_squared_of_deg(35);
 inline const double kGoal = sine_squared_of_deg(20);
 

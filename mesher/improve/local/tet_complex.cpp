@@ -120,7 +120,7 @@ bool TetComplex::ring(VertexId a, VertexId b, EdgeRing& ring) const {
   if (found == kNoTet) {
     return false;
   }
-  // Rotate backwards to the outside or once round, then forwards.
+  // Rotate backwards to the outside or a full turn, then forwards.
   const auto step = [&](TetId t, VertexId keep) {  // across the face a, b, keep
     for (unsigned n = 0; n < 4; ++n) {
       const VertexId w = tets_[t][n];

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/domain/interface_points.hpp"
+#include "mesher/topology/material_set.hpp"
 
 namespace cbc3d {
 
@@ -21,10 +21,11 @@ struct FreshTet {
   MaterialId material;
 };
 
-/// A facet at a vertex: the other two nodes, counter-clockwise seen from `outer`, and what it parts.
+/// A facet at a vertex: the other two nodes, counter-clockwise seen from `outer`, and the materials on its
+/// two sides.
 struct FacetAt {
   VertexId first, second;
-  MaterialId inner, outer;  ///< inner is never less than outer
+  MaterialId inner, outer;  ///< inner is greater than outer
 };
 
 /// The tets around the edge a, b: tets[i] has the ring vertices i and i + 1, and (a, b, ring[i], ring[i + 1])

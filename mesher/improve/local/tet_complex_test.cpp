@@ -70,8 +70,8 @@ TEST(TetComplex, StarsFacetsAndMaterialsAreThoseOfTheTets) {
     mesh.star(v, star);
     mesh.neighbours(v, star, joined);
     mesh.facets(v, star, facets);
-    const std::set<TetId> expected(around.tets.begin() + around.first[v],
-                                   around.tets.begin() + around.first[v + 1]);
+    const std::set<TetId> expected(around.cells.begin() + around.first[v],
+                                   around.cells.begin() + around.first[v + 1]);
     EXPECT_EQ(std::set<TetId>(star.begin(), star.end()), expected);
     EXPECT_EQ(star.size(), expected.size());  // each once
     std::set<VertexId> nodes;

@@ -1,8 +1,8 @@
-// Shape of one tet, as the improver sees it: the worst dihedral angle for guards, a smooth energy for moves.
+// Shape of one tet: the worst dihedral angle for guards, a smooth energy for moves.
 //
 // Notation: sine_squared  the smallest squared sine of a tet's six dihedral angles, so that 20 and 160
-// degrees
-//           are equally bad; -1 for a tet without volume or turned inside out.
+// degrees are
+//                         equally bad; -1 for a tet without volume or turned inside out.
 #pragma once
 
 #include <algorithm>
@@ -48,9 +48,9 @@ inline double min_sine_squared(const Vec3& a, const Vec3& b, const Vec3& c, cons
   return product > 0 ? det * det * smallest / product : -1;
 }
 
-/// The inverse mean ratio to the power p, with its derivatives by the first vertex.
-/// With A = sum of squared edge lengths / 2 and D = 6 sqrt(2) volume, it is (A / (3 D^(2/3)))^p: 1 for the
-/// regular tet, infinite for a flat one.
+/// The inverse mean ratio (Liu and Joe, BIT 34, 1994) to the power p = 3, with its derivatives by the first
+/// vertex. With A = sum of squared edge lengths / 2 and D = 6 sqrt(2) volume, it is (A / (3 D^(2/3)))^p: 1
+/// for the regular tet, infinite for a flat one.
 struct ShapeTerm {
   double energy = 0;
   Vec3 gradient;
@@ -101,7 +101,7 @@ inline bool add_shape_term(const Vec3& x, const Vec3& b, const Vec3& c, const Ve
   return true;
 }
 
-/// Adds weight * (n n') to a hessian and weight * offset * n to the gradient: a plane's pull.
+/// Adds the energy weight / 2 * offset^2 of the distance from a plane with unit normal n.
 inline void add_plane_term(const Vec3& n, double offset, double weight, ShapeTerm& sum) {
   sum.energy += 0.5 * weight * offset * offset;
   sum.gradient += (weight * offset) * n;

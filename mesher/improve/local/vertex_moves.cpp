@@ -33,7 +33,7 @@ struct Plane {
   double offset_mm;  // distance at the vertex
 };
 
-/// Of a plane's squared offset, per mm^2.
+/// Weights of the squared offsets of planes, per mm^2.
 struct Weights {
   double boundary, flat;
 };
@@ -44,7 +44,7 @@ struct VertexMover {
   Patch& patch;
   Link link;
   std::vector<Plane> planes;
-  std::vector<Plane> flat;   // where the neighbours would have the vertex
+  std::vector<Plane> flat;   // in which the neighbours on the same interface would have the vertex
   std::vector<Vec3> normal;  // of vertices on one interface alone, zero elsewhere; empty: no smoothness
   std::vector<std::array<MaterialId, 2>> pairs;
 
@@ -72,21 +72,22 @@ struct VertexMover {
     return true;
   }
 
-  /// Planes of the boundaries at x; false when one of them is not to be found.
+  /// Finds the planes of the boundaries at x; false when one of the boundaries is not near.
   bool find_planes(const Vec3& x) {
     planes.clear();
     for (const auto& [inner, outer] : pairs) {
-      const BoundarySample s = patch.boundary.sample(x, inner, outer);
-      if (!std::isfinite(s.deviation_mm)) {
+      const BoundaryDistance d = patch.boundaries.distance(x, inner, outer);
+      if (!std::isfinite(d.deviation_mm)) {
         return false;
       }
-      planes.push_back({s.normal, s.distance_mm});
+      planes.push_back({d.normal, d.distance_mm});
     }
     return true;
   }
 
-  /// The normals of all vertices that are on one interface and may move: locked ones do not know all of their
-  /// facets. Weights by Max (J. Graphics Tools 4, 1999), exact on spheres however the facets are cut.
+  /// The normals of all vertices that are on a single interface and may move; of locked ones not all facets
+  /// are in the patch. Weights by Max (J. Graphics Tools 4, 1999), exact on spheres however the facets are
+  /// cut.
   void find_normals() {
     const TetComplex& mesh = patch.mesh;
     normal.assign(mesh.vertex_count(), {});
@@ -98,7 +99,7 @@ struct VertexMover {
         }
       }
     }
-    constexpr double kLeast = 0.6;  // a tip, a sharp edge or a pinch has no normal
+    constexpr double kLeast = 0.6;  // tips, sharp edges and pinches have no normal
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
       const double norm = normal[v].norm();
       const bool known = !mesh.locked(v) && patch.sets[v].size == 2 && norm > kLeast * length[v];
@@ -120,13 +121,13 @@ struct VertexMover {
     }
   }
 
-  /// What the neighbours on the same interface say of v at x.
+  /// The planes in which the neighbours on the same interface would have v, and its distance from them at x.
   void find_flat(VertexId v, const Vec3& x) {
     flat.clear();
     if (normal.empty() || pairs.size() != 1 || normal[v].squared_norm() == 0) {
       return;
     }
-    for (const VertexId w : possible_hosts()) {
+    for (const VertexId w : surface_neighbours()) {
       const Vec3 sum = normal[v] + normal[w];
       if (normal[w].squared_norm() > 0 && sum.squared_norm() > 1) {
         const Vec3 m = sum.normalized();
@@ -138,13 +139,13 @@ struct VertexMover {
   [[nodiscard]] double deviation(const Vec3& x) const {
     double largest = 0;
     for (const auto& [inner, outer] : pairs) {
-      largest = std::max(largest, patch.boundary.sample(x, inner, outer).deviation_mm);
+      largest = std::max(largest, patch.boundaries.distance(x, inner, outer).deviation_mm);
     }
     return largest;
   }
 
-  /// True when x is near enough to its boundaries, or nearer (in the mean of squares) than the planes say the
-  /// vertex was.
+  /// True when x is within near_mm of its boundaries, or nearer (in the mean of squares) than the vertex was
+  /// by the planes.
   [[nodiscard]] bool stays_near(const Vec3& x, double near_mm) const {
     double before = 0;
     for (const Plane& plane : planes) {
@@ -153,7 +154,7 @@ struct VertexMover {
     double after = 0;
     double largest = 0;
     for (const auto& [inner, outer] : pairs) {
-      const double d = patch.boundary.sample(x, inner, outer).deviation_mm;
+      const double d = patch.boundaries.distance(x, inner, outer).deviation_mm;
       after += d * d;
       largest = std::max(largest, d);
     }
@@ -182,8 +183,8 @@ struct VertexMover {
     return sum;
   }
 
-  /// Neighbours of v on boundaries, which may take over its points.
-  [[nodiscard]] std::span<const VertexId> possible_hosts() {
+  /// Neighbours of v on boundaries; they may cover its samples in its place.
+  [[nodiscard]] std::span<const VertexId> surface_neighbours() {
     patch.around.clear();
     for (const FacetAt& f : patch.facets) {
       for (const VertexId w : {f.first, f.second}) {
@@ -195,10 +196,10 @@ struct VertexMover {
     return patch.around;
   }
 
-  /// Puts v at `to` when its points keep hosts.
+  /// Moves v when its samples stay covered.
   bool move(VertexId v, const Vec3& to) {
     if (patch.on_boundary(v)) {
-      if (!patch.cover.can_release(v, &to, possible_hosts(), patch.mesh, patch.sets)) {
+      if (!patch.cover.can_release(v, &to, surface_neighbours(), patch.mesh, patch.sets)) {
         return false;
       }
       patch.cover.commit(v);
@@ -207,7 +208,7 @@ struct VertexMover {
     return true;
   }
 
-  bool strays(VertexId v, double near_mm) { return load(v) && deviation(patch.mesh.point(v)) > near_mm; }
+  bool is_far(VertexId v, double near_mm) { return load(v) && deviation(patch.mesh.point(v)) > near_mm; }
 
   bool relax(VertexId v, const RelaxOptions& options) {
     if (!load(v)) {
@@ -235,7 +236,7 @@ struct VertexMover {
             options.smoothness * weight / static_cast<double>(flat.size())};
   }
 
-  /// Takes the step from x, if there is one; with smoothness where `flat` says something.
+  /// Takes the Newton step from x, if there is one; with the smoothness where `flat` has planes.
   Step newton(VertexId v, const Vec3& x, const RelaxOptions& options) {
     const Weights weights = weights_of(options);
     ShapeTerm sum;
@@ -269,20 +270,20 @@ struct VertexMover {
     return Step::refused;
   }
 
-  bool climb(VertexId v, double goal) {
+  bool optimize_angle(VertexId v, double goal) {
     if (!load(v)) {
       return false;
     }
     const Vec3 start = patch.mesh.point(v);
     const double h = std::sqrt(mean_squared_distance(link, start));
-    double best = worst_height(link, start, -1e300);
+    double best = worst_quality(link, start, -1e300);
     if (best >= goal) {
       return false;
     }
     const double limit = std::max(patch.guards.deviation_mm, deviation(start));
     bool moved = false;
     for (double length = 0.3 * h; length > 0.004 * h; length *= 0.5) {
-      for (int turn = 0; turn < 2 && best < goal && climb_step(v, length, limit, best); ++turn) {
+      for (int turn = 0; turn < 2 && best < goal && search_step(v, length, limit, best); ++turn) {
         moved = true;
       }
     }
@@ -290,12 +291,12 @@ struct VertexMover {
   }
 
   /// Takes the first step of a length that lifts the worst angle.
-  bool climb_step(VertexId v, double length, double limit, double& best) {
+  bool search_step(VertexId v, double length, double limit, double& best) {
     const Vec3 x = patch.mesh.point(v);
     const Vec3 up = steepest_ascent(link, x, length);
-    for (const Vec3& direction : climb_directions(up)) {
+    for (const Vec3& direction : search_directions(up)) {
       const Vec3 to = x + length * direction;
-      const double after = worst_height(link, to, best);
+      const double after = worst_quality(link, to, best);
       if (after > best && (pairs.empty() || deviation(to) <= limit) && move(v, to)) {
         best = after;
         return true;
@@ -327,7 +328,7 @@ std::size_t project_far_vertices(Patch& patch, const RelaxOptions& options) {
   std::size_t moved = 0;
   std::vector<VertexId> around;
   for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
-    for (int turn = 0; turn < 4 && patch.on_boundary(v) && mover.strays(v, near_mm); ++turn) {
+    for (int turn = 0; turn < 4 && patch.on_boundary(v) && mover.is_far(v, near_mm); ++turn) {
       const std::size_t before = moved;
       moved += mover.relax(v, options) ? 1 : 0;
       patch.mesh.star(v, patch.star);
@@ -344,7 +345,7 @@ std::size_t project_far_vertices(Patch& patch, const RelaxOptions& options) {
   return moved;
 }
 
-std::size_t climb_vertices(Patch& patch, double goal_sine_squared) {
+std::size_t optimize_worst_angles(Patch& patch, double goal_sine_squared) {
   VertexMover mover(patch);
   std::size_t moved = 0;
   for (TetId t = 0; t < patch.mesh.tet_slots(); ++t) {
@@ -352,7 +353,7 @@ std::size_t climb_vertices(Patch& patch, double goal_sine_squared) {
       continue;
     }
     for (std::size_t n = 0; n < 4 && patch.mesh.sine_squared(t) < goal_sine_squared; ++n) {
-      moved += mover.climb(patch.mesh.nodes(t)[n], goal_sine_squared) ? 1 : 0;
+      moved += mover.optimize_angle(patch.mesh.nodes(t)[n], goal_sine_squared) ? 1 : 0;
     }
   }
   return moved;

@@ -1,9 +1,11 @@
-// A mesh whose vertices and tets stay while tets change hands: tets that are left out stay as background, so
-// who neighbours whom does not change.
+// A mesh whose tets stay where they are while they are relabelled: tets that are left out stay as background,
+// so that adjacency does not change.
 #pragma once
 
-#include "mesher/domain/interface_points.hpp"
-#include "mesher/improve/local/mesh_star.hpp"
+#include <span>
+
+#include "mesher/topology/material_mesh.hpp"
+#include "mesher/topology/material_set.hpp"
 
 namespace cbc3d {
 
@@ -19,35 +21,35 @@ class LabelledComplex {
   [[nodiscard]] const MaterialMesh& mesh() const { return mesh_; }
   [[nodiscard]] const MaterialSet& set(VertexId v) const { return sets_[v]; }
   [[nodiscard]] const std::vector<MaterialSet>& sets() const { return sets_; }
-  [[nodiscard]] std::span<const TetId> star(VertexId v) const { return star_of(around_, v); }
+  [[nodiscard]] std::span<const TetId> star(VertexId v) const { return around_.of(v); }
   [[nodiscard]] MaterialId material(TetId t) const { return mesh_.materials[t]; }
   [[nodiscard]] TetId neighbour(TetId t, std::size_t n) const { return neighbours_[t][n]; }
   [[nodiscard]] MaterialId across(TetId t, std::size_t n) const {
     return neighbours_[t][n] == kNoTet ? kBackground : mesh_.materials[neighbours_[t][n]];
   }
-  /// True when the face is on the outside, or parts two labels and has a vertex there, and this is the side
-  /// it is counted from. What lies deeper cuts nothing while all tets are positive.
+  /// True when the face is an outer one, or lies between two labels and has a vertex on the outside, and this
+  /// is the side from which it counts. Faces that lie deeper intersect nothing while all tets are positive.
   [[nodiscard]] bool is_facet(TetId t, std::size_t n) const;
-  void give(TetId t, MaterialId material) { mesh_.materials[t] = material; }
+  void relabel(TetId t, MaterialId material) { mesh_.materials[t] = material; }
 
   void renew_set(VertexId v);
 
-  /// True when the facets of a material's label at v, those between it and all else, go once round v, or
-  /// there are none.
+  /// True when the facets of a material's label at v, those between it and everything else, form one fan
+  /// around v, or when there are none.
   [[nodiscard]] bool is_manifold_at(VertexId v, MaterialId material) const;
 
  private:
   using LinkEdges = std::vector<std::array<VertexId, 2>>;
 
   void add_link_edge(TetId t, std::size_t n, VertexId v, LinkEdges& link) const;
-  /// Facets of the outside: faces without neighbour.
+  /// Adds the outer facets: faces without neighbour.
   void add_open_faces(VertexId v, LinkEdges& link) const;
   [[nodiscard]] static bool is_one_cycle(const LinkEdges& link);
 
   MaterialMesh& mesh_;
   const std::vector<MaterialId>& label_of_;
   TetNeighbours neighbours_;
-  VertexTets around_;
+  VertexCells around_;
   std::vector<MaterialSet> sets_;
 };
 

@@ -1,6 +1,7 @@
 #include "mesher/improve/surface/relabel_tets.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "mesher/improve/local/mesh_star.hpp"
 #include "mesher/improve/surface/labelled_complex.hpp"
@@ -13,22 +14,21 @@ using Facet = std::array<VertexId, 3>;
 
 class Relabeller {
  public:
-  Relabeller(MaterialMesh& mesh, CoveredSamples& hosted, const ImagePlaces& places,
-             const RelabelOptions& options)
-      : mesh_(mesh), complex_(mesh, places.label_of), hosted_(hosted), places_(places), options_(options) {}
+  Relabeller(MaterialMesh& mesh, SurfaceCover& cover, const Domain& domain, const RelabelOptions& options)
+      : mesh_(mesh), complex_(mesh, domain.label_of()), cover_(cover), domain_(domain), options_(options) {}
 
   RelabelReport run() {
     for (int round = 0; round < options_.rounds; ++round) {
       const std::size_t before = report_.tets_relabelled + report_.vertices_moved;
-      const std::size_t pinches = mend_pinches();
-      const std::size_t strays = withdraw_strays();
-      const std::size_t crossings = part_crossings();
+      const std::size_t pinches = relabel_at_pinches();
+      const std::size_t far = relabel_at_far_vertices();
+      const std::size_t intersections = relabel_at_self_intersections();
       if (round == 0) {
         report_.pinches = pinches;
-        report_.strays = strays;
-        report_.crossings = crossings;
+        report_.far_vertices = far;
+        report_.self_intersections = intersections;
       }
-      report_.faults_left = pinches + strays + crossings;
+      report_.defects_left = pinches + far + intersections;
       if (report_.tets_relabelled + report_.vertices_moved == before) {
         break;
       }
@@ -37,9 +37,8 @@ class Relabeller {
   }
 
  private:
-  /// Vertices where a label's surface is no manifold: a part of its star changes hands, the smallest that
-  /// may.
-  std::size_t mend_pinches() {
+  /// At each pinch the smallest tet of the star that may is relabelled. Returns the number of pinches.
+  std::size_t relabel_at_pinches() {
     std::vector<MaterialId> pinched(mesh_.points.size(), kBackground);
 #pragma omp parallel for schedule(dynamic, 256)
     for (std::size_t v = 0; v < pinched.size(); ++v) {
@@ -54,21 +53,22 @@ class Relabeller {
     for (VertexId v = 0; v < pinched.size(); ++v) {
       if (pinched[v] != kBackground) {
         ++pinches;
-        mend_pinch(v, pinched[v]);
+        relabel_at_pinch(v, pinched[v]);
       }
     }
     return pinches;
   }
 
-  void mend_pinch(VertexId v, MaterialId material) {
+  void relabel_at_pinch(VertexId v, MaterialId material) {
     std::vector<std::vector<TetId>> choices;
     for (const TetId t : complex_.star(v)) {
-      if (places_.label_of[complex_.material(t)] == places_.label_of[material]) {
+      if (domain_.label_of()[complex_.material(t)] == domain_.label_of()[material]) {
         choices.push_back({t});
       }
     }
     sort_by_volume(choices);
-    std::any_of(choices.begin(), choices.end(), [this](const auto& tets) { return give_away(tets); });
+    std::any_of(choices.begin(), choices.end(),
+                [this](const auto& tets) { return relabel_to_neighbour(tets); });
   }
 
   void sort_by_volume(std::vector<std::vector<TetId>>& choices) const {
@@ -76,52 +76,53 @@ class Relabeller {
                      [this](const auto& a, const auto& b) { return volume(a) < volume(b); });
   }
 
-  /// Vertices that stand on the surface of a label whose boundary is elsewhere.
-  std::size_t withdraw_strays() {
+  /// Each far vertex moves towards the boundary, or its tets of the label are relabelled. Returns their
+  /// number.
+  std::size_t relabel_at_far_vertices() {
     std::vector<std::uint8_t> far(mesh_.points.size(), 0);
 #pragma omp parallel for schedule(dynamic, 256)
     for (std::size_t v = 0; v < far.size(); ++v) {
       const MaterialSet& set = complex_.set(static_cast<VertexId>(v));
       for (std::uint8_t i = 0; set.size > 1 && i < set.size; ++i) {
-        far[v] |= static_cast<std::uint8_t>(!places_.is_near(mesh_.points[v], set.ids[i]));
+        far[v] |= static_cast<std::uint8_t>(!domain_.is_near_boundary(mesh_.points[v], set.ids[i]));
       }
     }
-    std::size_t strays = 0;
+    std::size_t count = 0;
     for (VertexId v = 0; v < far.size(); ++v) {
       if (far[v] != 0) {
-        ++strays;
-        withdraw(v);
+        ++count;
+        relabel_at_far_vertex(v);
       }
     }
-    return strays;
+    return count;
   }
 
-  void withdraw(VertexId v) {
+  void relabel_at_far_vertex(VertexId v) {
     const MaterialSet set = complex_.set(v);
     for (std::uint8_t i = 0; set.size > 1 && i < set.size; ++i) {
       const MaterialId material = set.ids[i];
-      if (material != kBackground && !places_.is_near(mesh_.points[v], material)) {
-        if (!nudge(v, material)) {
-          give_away(tets_at(v, material));
+      if (material != kBackground && !domain_.is_near_boundary(mesh_.points[v], material)) {
+        if (!step_towards_boundary(v, material)) {
+          relabel_to_neighbour(tets_at(v, material));
         }
         return;
       }
     }
   }
 
-  /// Moves v towards the boundary of a material until it is near enough, where nothing else suffers.
-  bool nudge(VertexId v, MaterialId material) {
+  /// Moves v towards the boundary of a material until it is near, where no guard forbids it.
+  bool step_towards_boundary(VertexId v, MaterialId material) {
     const Vec3 from = mesh_.points[v];
-    const std::optional<Vec3> to = places_.nearest(from, material);
+    const std::optional<Vec3> to = domain_.nearest_boundary(from, material);
     if (!to) {
       return false;
     }
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
-    const Vec3 step = (options_.reach_mm / (*to - from).norm()) * (*to - from);
+    const Vec3 step = (options_.step_mm / (*to - from).norm()) * (*to - from);
     for (const double share : {0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8}) {
       mesh_.points[v] = from + share * step;
-      if (places_.is_near(mesh_.points[v], material)) {
-        if (worst_at(v) >= floor && is_near_all(v) && hosted_.allow(v, from, mesh_.points[v])) {
+      if (domain_.is_near_boundary(mesh_.points[v], material)) {
+        if (worst_at(v) >= floor && is_near_all(v) && cover_.may_move(v, from, mesh_.points[v])) {
           ++report_.vertices_moved;
           return true;
         }
@@ -139,12 +140,12 @@ class Relabeller {
   [[nodiscard]] bool is_near_all(VertexId v) const {
     const MaterialSet& set = complex_.set(v);
     return std::all_of(set.ids.begin(), set.ids.begin() + set.size,
-                       [&](MaterialId m) { return places_.is_near(mesh_.points[v], m); });
+                       [&](MaterialId m) { return domain_.is_near_boundary(mesh_.points[v], m); });
   }
 
-  /// Tets behind outer facets that cross, or round one of these facets' vertices, are left out; the smallest
-  /// first.
-  std::size_t part_crossings() {
+  /// Tets behind outer facets that intersect, or around one of these facets' vertices, become background, the
+  /// smallest first. Returns the number of pairs.
+  std::size_t relabel_at_self_intersections() {
     std::vector<Facet> facets;
     std::vector<TetId> behind;
     for (TetId t = 0; t < mesh_.tets.size(); ++t) {
@@ -156,10 +157,10 @@ class Relabeller {
         }
       }
     }
-    const auto pairs = crossing_facets(mesh_.points, facets);
+    const auto pairs = intersecting_facets(mesh_.points, facets);
     for (const auto& [f, g] : pairs) {
       if (complex_.material(behind[f]) == kBackground || complex_.material(behind[g]) == kBackground) {
-        continue;  // one of them is gone by now
+        continue;  // one of them has become background
       }
       std::vector<std::vector<TetId>> choices = {{behind[f]}, {behind[g]}};
       for (const std::uint32_t facet : {f, g}) {
@@ -196,8 +197,8 @@ class Relabeller {
     return sum;
   }
 
-  /// To what the image has there, else to whoever is round them.
-  bool give_away(const std::vector<TetId>& tets) {
+  /// Relabels tets of one material to what the domain has there, or else to a material next to them.
+  bool relabel_to_neighbour(const std::vector<TetId>& tets) {
     MaterialSet takers;
     for (const TetId t : tets) {
       for (std::size_t n = 0; n < 4; ++n) {
@@ -210,7 +211,7 @@ class Relabeller {
         centre += (0.25 / static_cast<double>(tets.size())) * mesh_.points[v];
       }
     }
-    const MaterialId meant = places_.material_at(centre);
+    const MaterialId meant = domain_.material_at(centre);
     if (takers.has(meant) && change(tets, meant)) {
       return true;
     }
@@ -222,7 +223,7 @@ class Relabeller {
     return false;
   }
 
-  /// Gives tets of one material to another where nothing forbids it.
+  /// Gives tets of one material another where no guard forbids it.
   bool change(const std::vector<TetId>& tets, MaterialId to) {
     const MaterialId from = complex_.material(tets.front());
     if (from == to || from == kBackground || volume(tets) > options_.largest_mm3) {
@@ -236,9 +237,9 @@ class Relabeller {
       pinched_.push_back(complex_.is_manifold_at(v, kBackground) ? 0 : 1);
     }
     assign(tets, to);
-    if (keeps_shapes() && keeps_label(from) && keeps_near() && keeps_hosts()) {
-      for (const auto& [point, host] : new_hosts_) {
-        hosted_.move_point(point, host);
+    if (keeps_manifolds() && keeps_label(from) && keeps_near() && keeps_samples_covered()) {
+      for (const Reassignment& r : new_covering_) {
+        cover_.reassign(r.sample, r.from, r.to);
       }
       report_.tets_relabelled += tets.size();
       return true;
@@ -258,7 +259,7 @@ class Relabeller {
 
   void assign(const std::vector<TetId>& tets, MaterialId material) {
     for (const TetId t : tets) {
-      complex_.give(t, material);
+      complex_.relabel(t, material);
     }
     for (const VertexId v : touched_) {
       complex_.renew_set(v);
@@ -266,7 +267,7 @@ class Relabeller {
   }
 
   /// The surface of every label stays a manifold; that of all together may be pinched where it was.
-  [[nodiscard]] bool keeps_shapes() {
+  [[nodiscard]] bool keeps_manifolds() {
     for (std::size_t i = 0; i < touched_.size(); ++i) {
       const MaterialSet set = complex_.set(touched_[i]);
       for (std::uint8_t s = 0; s < set.size; ++s) {
@@ -282,7 +283,7 @@ class Relabeller {
     return true;
   }
 
-  /// The label goes on beside what it gave away.
+  /// The label is still there beside the relabelled tets.
   [[nodiscard]] bool keeps_label(MaterialId material) const {
     return std::any_of(touched_.begin(), touched_.end(),
                        [&](VertexId v) { return complex_.set(v).has(material); });
@@ -295,7 +296,7 @@ class Relabeller {
       const MaterialSet& old = old_sets_[i];
       for (std::uint8_t s = 0; set.size > 1 && s < set.size; ++s) {
         const bool was_there = old.size > 1 && old.has(set.ids[s]);
-        if (!was_there && !places_.is_near(mesh_.points[touched_[i]], set.ids[s])) {
+        if (!was_there && !domain_.is_near_boundary(mesh_.points[touched_[i]], set.ids[s])) {
           return false;
         }
       }
@@ -303,63 +304,66 @@ class Relabeller {
     return true;
   }
 
-  /// Every point finds a host, the old one or one near by; the new ones are noted.
-  [[nodiscard]] bool keeps_hosts() {
-    new_hosts_.clear();
-    for (const VertexId v : touched_) {
-      for (std::uint32_t p = hosted_.first_of(v); p != CoveredSamples::kNone; p = hosted_.next(p)) {
-        if (hosted_.point(p).is_on(complex_.set(v))) {
-          continue;
+  /// Every sample is covered, by its old vertex or by one near it; the new ones are noted.
+  [[nodiscard]] bool keeps_samples_covered() {
+    new_covering_.clear();
+    return std::all_of(touched_.begin(), touched_.end(), [&](VertexId v) {
+      return cover_.all_of(v, [&](SampleId s) {
+        if (cover_.sample(s).is_on(complex_.set(v))) {
+          return true;
         }
-        const VertexId host = host_near(v, p);
-        if (host == kNoVertex) {
-          return false;
-        }
-        new_hosts_.emplace_back(p, host);
-      }
-    }
-    return true;
+        const VertexId to = covering_vertex_near(v, s);
+        new_covering_.push_back({s, v, to});
+        return to != kNoVertex;
+      });
+    });
   }
 
-  [[nodiscard]] VertexId host_near(VertexId v, std::uint32_t point) const {
-    const Vec3 at = hosted_.point(point).centre();
-    double nearest = hosted_.limit_squared(point, mesh_.points[v]);
-    VertexId host = kNoVertex;
+  /// The nearest vertex in two rings around v that covers a sample; kNoVertex for none.
+  [[nodiscard]] VertexId covering_vertex_near(VertexId v, SampleId s) const {
+    const Vec3 at = cover_.centre(s);
+    double nearest = cover_.limit_squared(s, mesh_.points[v]);
+    VertexId found = kNoVertex;
     for (const TetId t : complex_.star(v)) {
       for (const VertexId w : mesh_.tets[t]) {
         for (const TetId near : complex_.star(w)) {
           for (const VertexId x : mesh_.tets[near]) {
             const double d = (mesh_.points[x] - at).squared_norm();
-            if (d < nearest && hosted_.point(point).is_on(complex_.set(x))) {
+            if (d < nearest && cover_.sample(s).is_on(complex_.set(x))) {
               nearest = d;
-              host = x;
+              found = x;
             }
           }
         }
       }
     }
-    return host;
+    return found;
   }
+
+  struct Reassignment {
+    SampleId sample;
+    VertexId from, to;
+  };
 
   MaterialMesh& mesh_;
   LabelledComplex complex_;
-  CoveredSamples& hosted_;
-  const ImagePlaces& places_;
+  SurfaceCover& cover_;
+  const Domain& domain_;
   const RelabelOptions& options_;
   RelabelReport report_;
   std::vector<VertexId> touched_;
   std::vector<MaterialSet> old_sets_;  // of the touched vertices
-  std::vector<std::uint8_t> pinched_;  // likewise: the outer surface was no manifold there
-  std::vector<std::pair<std::uint32_t, VertexId>> new_hosts_;
+  std::vector<std::uint8_t> pinched_;  // likewise: the outer surface was non-manifold there
+  std::vector<Reassignment> new_covering_;
 };
 
 }  // namespace
 
-RelabelReport relabel_misplaced_tets(MaterialMesh& mesh, CoveredSamples& hosted, const ImagePlaces& places,
+RelabelReport relabel_misplaced_tets(MaterialMesh& mesh, SurfaceCover& cover, const Domain& domain,
                                      const RelabelOptions& options) {
   const bool meshes_background =
       std::find(mesh.materials.begin(), mesh.materials.end(), kBackground) != mesh.materials.end();
-  const RelabelReport report = Relabeller(mesh, hosted, places, options).run();
+  const RelabelReport report = Relabeller(mesh, cover, domain, options).run();
   if (report.tets_relabelled > 0 && !meshes_background) {
     remove_background(mesh);
   }

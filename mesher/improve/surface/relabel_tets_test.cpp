@@ -18,12 +18,12 @@ using testing::open_gap;
 using testing::plane_at;
 using testing::two_layers;
 
-const std::vector<InterfacePoint> kNoPoints;
+const std::vector<BoundarySample> kNoSamples;
 
 /// No step of a vertex is long enough to mend a spike.
 RelabelOptions short_steps() {
   RelabelOptions options;
-  options.reach_mm = 0.5;
+  options.step_mm = 0.5;
   return options;
 }
 
@@ -54,10 +54,10 @@ TEST(RelabelTets, SpikesGoBackToWhatTheImageHasThere) {
   const std::vector<TetId> spikes = make_spikes(mesh);
   ASSERT_GE(spikes.size(), 2U);
   ASSERT_EQ(faults(mesh), 0U);
-  std::vector<VertexId> hosts;
-  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
-  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), short_steps());
-  EXPECT_EQ(report.strays, spikes.size());
+  std::vector<VertexId> covering;
+  SurfaceCover cover(kNoSamples, covering, mesh.points.size(), 1);
+  const RelabelReport report = relabel_misplaced_tets(mesh, cover, plane_at(5, 2, 0.5), short_steps());
+  EXPECT_EQ(report.far_vertices, spikes.size());
   EXPECT_EQ(report.tets_relabelled, spikes.size());
   EXPECT_EQ(mesh.materials, clean.materials);
   EXPECT_EQ(mesh.points[7].x, clean.points[7].x);
@@ -71,14 +71,14 @@ TEST(RelabelTets, ASpikeThatABoundaryVoxelNeedsStays) {
   const VertexId tip = *std::max_element(
       kept.begin(), kept.end(), [&](VertexId a, VertexId b) { return mesh.points[a].z < mesh.points[b].z; });
   const Vec3 at = mesh.points[tip];
-  const std::vector<InterfacePoint> points = {
+  const std::vector<BoundarySample> points = {
       {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, 1, 2}};
-  std::vector<VertexId> hosts = {tip};
-  CoveredSamples hosted(points, hosts, mesh.points.size(), 0.5);
-  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.5), short_steps());
+  std::vector<VertexId> covering = {tip};
+  SurfaceCover cover(points, covering, mesh.points.size(), 0.5);
+  const RelabelReport report = relabel_misplaced_tets(mesh, cover, plane_at(5, 2, 0.5), short_steps());
   EXPECT_EQ(mesh.materials[spikes[0]], 1);
   EXPECT_EQ(report.tets_relabelled, spikes.size() - 1);
-  EXPECT_EQ(hosts[0], tip);
+  EXPECT_FALSE(cover.all_of(tip, [](SampleId) { return false; }));  // it still covers the sample
 }
 
 TEST(RelabelTets, AStepMendsAVertexThatIsHardlyTooFar) {
@@ -86,11 +86,11 @@ TEST(RelabelTets, AStepMendsAVertexThatIsHardlyTooFar) {
   for (VertexId v = 0; v < mesh.points.size(); ++v) {
     if (mesh.points[v].z == 2) mesh.points[v].z += v % 7 == 0 ? 0.12 : 0.05;
   }
-  std::vector<VertexId> hosts;
-  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
-  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(5, 2, 0.1), {});
-  EXPECT_GT(report.strays, 0U);
-  EXPECT_EQ(report.vertices_moved, report.strays);
+  std::vector<VertexId> covering;
+  SurfaceCover cover(kNoSamples, covering, mesh.points.size(), 1);
+  const RelabelReport report = relabel_misplaced_tets(mesh, cover, plane_at(5, 2, 0.1), {});
+  EXPECT_GT(report.far_vertices, 0U);
+  EXPECT_EQ(report.vertices_moved, report.far_vertices);
   EXPECT_EQ(report.tets_relabelled, 0U);
   for (const Vec3& p : mesh.points) {
     if (p.z > 1.5 && p.z < 2.5 && std::min({p.x, p.y, 5 - p.x, 5 - p.y}) > 0) {
@@ -114,9 +114,9 @@ TEST(RelabelTets, APinchedEdgeIsMended) {
     }
   }
   ASSERT_TRUE(found);
-  std::vector<VertexId> hosts;
-  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
-  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(4, 2, 10), {});
+  std::vector<VertexId> covering;
+  SurfaceCover cover(kNoSamples, covering, mesh.points.size(), 1);
+  const RelabelReport report = relabel_misplaced_tets(mesh, cover, plane_at(4, 2, 10), {});
   EXPECT_GT(report.pinches, 0U);
   EXPECT_GT(report.tets_relabelled, 0U);
   EXPECT_EQ(faults(mesh), 0U);
@@ -126,14 +126,15 @@ TEST(RelabelTets, ATipAcrossAGapIsLeftOut) {
   MaterialMesh mesh = two_layers(6, 2);
   open_gap(mesh, 6, {3.3, 3.2, 3.3});
   const std::size_t kept = mesh.tets.size();
-  std::vector<VertexId> hosts;
-  CoveredSamples hosted(kNoPoints, hosts, mesh.points.size(), 1);
-  const RelabelReport report = relabel_misplaced_tets(mesh, hosted, plane_at(6, 2.5, 10), {});
-  EXPECT_GT(report.crossings, 0U);
+  std::vector<VertexId> covering;
+  SurfaceCover cover(kNoSamples, covering, mesh.points.size(), 1);
+  const RelabelReport report = relabel_misplaced_tets(mesh, cover, plane_at(6, 2.5, 10), {});
+  EXPECT_GT(report.self_intersections, 0U);
   EXPECT_GT(report.tets_relabelled, 0U);
   EXPECT_EQ(mesh.tets.size(), kept - report.tets_relabelled);  // out of the mesh
   EXPECT_EQ(faults(mesh), 0U);
-  EXPECT_EQ(separate_crossings(mesh, hosted, {0.1, 0, 0}), 0U);
+  EXPECT_EQ(separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_sine_squared = 0, .rounds = 0}),
+            0U);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct OuterSurface {
   std::vector<Facet> inner;   // between materials, those at vertices of the outer surface
 };
 
-/// What the outer surface may pass through where it is folded over about a vertex.
+/// Adds the facets that the outer surface may pass through where it is folded over at a vertex.
 void add_inner_facets(const MaterialMesh& mesh, const TetNeighbours& neighbours, OuterSurface& surface) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     for (std::size_t n = 0; n < 4; ++n) {
@@ -79,7 +79,7 @@ bool lies_in(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
          !std::all_of(at.begin(), at.end(), [&](double d) { return d <= leeway; });
 }
 
-/// True when segment p, q meets triangle a, b, c; what is within rounding of touching counts, but in a common
+/// True when segment p, q meets triangle a, b, c; touching within rounding counts too, except in a common
 /// plane.
 bool meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const double scale = (b - a).norm() * (c - a).norm() * (q - p).norm();
@@ -114,9 +114,9 @@ bool sides_meet(const std::vector<Vec3>& points, const Facet& f, const Facet& g)
   return false;
 }
 
-class CrossingFinder {
+class IntersectionFinder {
  public:
-  CrossingFinder(const std::vector<Vec3>& points, const std::vector<Facet>& facets)
+  IntersectionFinder(const std::vector<Vec3>& points, const std::vector<Facet>& facets)
       : points_(points), facets_(facets) {
     double sum = 0;
     for (const Facet& f : facets) {
@@ -152,8 +152,7 @@ class CrossingFinder {
     return (key * 0x9E3779B97F4A7C15ULL >> 32U) & (first_.size() - 2);
   }
 
-  /// Cells by a hash of their key, counted and then put in place; in what order they are in a bucket does not
-  /// matter.
+  /// Sorts the cells into buckets by a hash of their key. The order within a bucket does not matter.
   void fill_buckets() {
     std::size_t buckets = 2;
     while (buckets < 4 * facets_.size()) {
@@ -234,7 +233,7 @@ class CrossingFinder {
     });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::erase_if(near, [&](std::uint32_t g) { return !facets_cross(points_, facets_[f], facets_[g]); });
+    std::erase_if(near, [&](std::uint32_t g) { return !facets_intersect(points_, facets_[f], facets_[g]); });
     return near;
   }
 
@@ -246,23 +245,23 @@ class CrossingFinder {
   std::vector<Entry> entries_;
 };
 
-/// Moves single vertices of a mesh whose tets stay.
+/// Moves single vertices of a mesh inwards while its tets stay.
 class Retreat {
  public:
-  Retreat(MaterialMesh& mesh, const CoveredSamples& hosted, const CrossingOptions& options)
+  Retreat(MaterialMesh& mesh, const SurfaceCover& cover, const SeparationOptions& options)
       : mesh_(mesh),
-        hosted_(hosted),
+        cover_(cover),
         options_(options),
         around_(tets_of_vertices(mesh.tets, mesh.points.size())) {}
 
-  [[nodiscard]] const VertexTets& around() const { return around_; }
+  [[nodiscard]] const VertexCells& around() const { return around_; }
 
   bool move(VertexId v, const Vec3& inwards) {
     const Vec3 from = mesh_.points[v];
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
     for (const double share : {1.0, 0.5, 0.25}) {
       mesh_.points[v] = from + share * options_.step_mm * inwards;
-      if (hosted_.allow(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
+      if (cover_.may_move(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
         return true;
       }
     }
@@ -271,22 +270,22 @@ class Retreat {
   }
 
  private:
-  [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, star_of(around_, v)); }
+  [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, around_.of(v)); }
 
   MaterialMesh& mesh_;
-  const CoveredSamples& hosted_;
-  const CrossingOptions& options_;
-  VertexTets around_;
+  const SurfaceCover& cover_;
+  const SeparationOptions& options_;
+  VertexCells around_;
 };
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 2>> crossing_facets(
+std::vector<std::array<std::uint32_t, 2>> intersecting_facets(
     const std::vector<Vec3>& points, const std::vector<std::array<VertexId, 3>>& facets) {
-  return CrossingFinder(points, facets).find();
+  return IntersectionFinder(points, facets).find();
 }
 
-bool facets_cross(const std::vector<Vec3>& points, const Facet& f, const Facet& g) {
+bool facets_intersect(const std::vector<Vec3>& points, const Facet& f, const Facet& g) {
   const auto shared = std::count_if(f.begin(), f.end(), [&](VertexId v) { return has(g, v); });
   return shared < 2 && (sides_meet(points, f, g) || sides_meet(points, g, f));
 }
@@ -327,11 +326,11 @@ bool facets_fold(const std::vector<Vec3>& points, const Facet& f, VertexId behin
 
 namespace {
 
-/// The dihedral angles of the tets at an edge, together.
-double angle_round(const MaterialMesh& mesh, const VertexTets& around, VertexId a, VertexId b) {
+/// The sum of the dihedral angles of the tets at an edge.
+double angle_around(const MaterialMesh& mesh, const VertexCells& around, VertexId a, VertexId b) {
   const Vec3 along = (mesh.points[b] - mesh.points[a]).normalized();
   double sum = 0;
-  for (const TetId t : star_of(around, a)) {
+  for (const TetId t : around.of(a)) {
     const auto& nodes = mesh.tets[t];
     if (std::find(nodes.begin(), nodes.end(), b) == nodes.end()) {
       continue;
@@ -349,9 +348,9 @@ double angle_round(const MaterialMesh& mesh, const VertexTets& around, VertexId 
   return sum;
 }
 
-/// Pairs of facets with an edge in common round which the tets fill more than a full turn: a gap turned
-/// inside out.
-std::vector<std::array<std::uint32_t, 2>> overfull_pairs(const MaterialMesh& mesh, const VertexTets& around,
+/// Pairs of facets with a common edge around which the tets fill more than a full turn: a gap turned inside
+/// out.
+std::vector<std::array<std::uint32_t, 2>> overfull_pairs(const MaterialMesh& mesh, const VertexCells& around,
                                                          const OuterSurface& surface) {
   struct Side {
     std::array<VertexId, 2> ends;
@@ -376,7 +375,7 @@ std::vector<std::array<std::uint32_t, 2>> overfull_pairs(const MaterialMesh& mes
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
     const auto& [ends, f] = sides[i];
     const bool back_to_back = ends == sides[i + 1].ends && normal(f).dot(normal(sides[i + 1].facet)) < -0.1;
-    if (back_to_back && angle_round(mesh, around, ends[0], ends[1]) > 2 * std::numbers::pi - kLeastGap) {
+    if (back_to_back && angle_around(mesh, around, ends[0], ends[1]) > 2 * std::numbers::pi - kLeastGap) {
       pairs.push_back({f, sides[i + 1].facet});
     }
   }
@@ -385,7 +384,7 @@ std::vector<std::array<std::uint32_t, 2>> overfull_pairs(const MaterialMesh& mes
 
 }  // namespace
 
-std::size_t count_crossings_of_labels(const MaterialMesh& mesh, const std::vector<MaterialId>& label_of) {
+std::size_t count_self_intersections(const MaterialMesh& mesh, const std::vector<MaterialId>& label_of) {
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   std::vector<Facet> facets;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -399,18 +398,18 @@ std::size_t count_crossings_of_labels(const MaterialMesh& mesh, const std::vecto
       }
     }
   }
-  return crossing_facets(mesh.points, facets).size();
+  return intersecting_facets(mesh.points, facets).size();
 }
 
-std::size_t separate_crossings(MaterialMesh& mesh, const CoveredSamples& hosted,
-                               const CrossingOptions& options) {
+std::size_t separate_self_intersections(MaterialMesh& mesh, const SurfaceCover& cover,
+                                        const SeparationOptions& options) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  Retreat retreat(mesh, hosted, options);
+  Retreat retreat(mesh, cover, options);
   for (int round = 0;; ++round) {
     const OuterSurface surface = outer_surface(mesh);
     std::vector<Facet> facets = surface.facets;
     facets.insert(facets.end(), surface.inner.begin(), surface.inner.end());
-    pairs = crossing_facets(mesh.points, facets);
+    pairs = intersecting_facets(mesh.points, facets);
     const auto overfull = overfull_pairs(mesh, retreat.around(), surface);
     pairs.insert(pairs.end(), overfull.begin(), overfull.end());
     if (pairs.empty() || round == options.rounds) {

@@ -12,24 +12,26 @@
 namespace cbc3d {
 namespace {
 
-TEST(CrossingFacets, WhatLiesInOnePlaneCrossesOnlyWhereItOverlaps) {
+TEST(IntersectingFacets, WhatLiesInOnePlaneCrossesOnlyWhereItOverlaps) {
   const auto pairs = [](const Vec3& shift) {
     std::vector<Vec3> points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
     for (int i = 0; i < 3; ++i) points.push_back(points[static_cast<std::size_t>(i)] + shift);
-    return crossing_facets(points, {{0, 1, 2}, {3, 4, 5}}).size();
+    return intersecting_facets(points, {{0, 1, 2}, {3, 4, 5}}).size();
   };
   EXPECT_EQ(pairs({0.3, 0.3, 0}), 1U);  // one over the other
   EXPECT_EQ(pairs({2, 0, 0}), 0U);      // corner at corner
   EXPECT_EQ(pairs({5, 0, 0}), 0U);
   EXPECT_EQ(pairs({0.3, 0.3, 1}), 0U);  // above
-  EXPECT_EQ(crossing_facets({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {-2, 0, 0}, {0, -2, 0}}, {{0, 1, 2}, {0, 3, 4}})
-                .size(),
-            0U);  // about one vertex
-  EXPECT_EQ(crossing_facets({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {2, -1, 0}}, {{0, 1, 2}, {0, 3, 4}})
-                .size(),
-            1U);
-  EXPECT_EQ(crossing_facets({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {9, 9, 0}},
-                            {{0, 1, 2}, {3, 4, 5}})
+  EXPECT_EQ(
+      intersecting_facets({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {-2, 0, 0}, {0, -2, 0}}, {{0, 1, 2}, {0, 3, 4}})
+          .size(),
+      0U);  // about one vertex
+  EXPECT_EQ(
+      intersecting_facets({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {2, -1, 0}}, {{0, 1, 2}, {0, 3, 4}})
+          .size(),
+      1U);
+  EXPECT_EQ(intersecting_facets({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {9, 9, 0}},
+                                {{0, 1, 2}, {3, 4, 5}})
                 .size(),
             1U);  // through
 }
@@ -45,12 +47,12 @@ TEST(FacetsFold, WhereOneLiesInTheTetBehindTheOther) {
   EXPECT_FALSE(fold({-1, 0.5, 0.5}, {-1, 0.5, -0.5}));
   EXPECT_FALSE(fold({0.5, 0.5, 0.1}, {-1, 0.5, 0.5}));            // a narrow gap between the two
   EXPECT_TRUE(fold({0.5, 0.5, -0.1}, {-1, 0.5, 0.5}));            // none: one within the other's tet
-  EXPECT_TRUE(fold({-1, 0.5, 1}, {1, 0.5, -0.1}));                // likewise the other way round
+  EXPECT_TRUE(fold({-1, 0.5, 1}, {1, 0.5, -0.1}));                // likewise with the roles exchanged
   EXPECT_FALSE(facets_fold(points, {0, 1, 2}, 3, {0, 1, 3}, 2));  // two facets of one tet
   EXPECT_FALSE(facets_fold(points, {0, 1, 2}, 3, {0, 4, 5}, 1));  // one vertex in common
 }
 
-/// Six tets round the edge 0, 1 that together fill so many degrees.
+/// Six tets around the edge 0, 1 that together fill a given angle.
 MaterialMesh fan(double turn_deg) {
   MaterialMesh mesh;
   mesh.points = {{0, 0, -1}, {0, 0, 1}};
@@ -65,7 +67,7 @@ MaterialMesh fan(double turn_deg) {
   return mesh;
 }
 
-TEST(SeparateCrossings, AnEdgeWithMoreThanAFullTurnOfTetsIsCounted) {
+TEST(SeparateSelfIntersections, AnEdgeWithMoreThanAFullTurnOfTetsIsCounted) {
   for (const double turn_deg : {300.0, 355.0, 365.0, 420.0}) {
     MaterialMesh mesh = fan(turn_deg);
     ASSERT_EQ(testing::inverted_tets(mesh.tets, mesh.points), 0U);
@@ -74,11 +76,12 @@ TEST(SeparateCrossings, AnEdgeWithMoreThanAFullTurnOfTetsIsCounted) {
       outside.push_back({0, 2 + i, 3 + i});
       outside.push_back({1, 2 + i, 3 + i});
     }
-    const std::vector<InterfacePoint> none;
-    std::vector<VertexId> hosts;
-    CoveredSamples hosted(none, hosts, mesh.points.size(), 1);
-    const std::size_t left = separate_crossings(mesh, hosted, {0.1, 0, 0});
-    EXPECT_EQ(left, crossing_facets(mesh.points, outside).size() + (turn_deg > 360 ? 1 : 0)) << turn_deg;
+    const std::vector<BoundarySample> none;
+    std::vector<VertexId> covering;
+    SurfaceCover cover(none, covering, mesh.points.size(), 1);
+    const std::size_t left =
+        separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_sine_squared = 0, .rounds = 0});
+    EXPECT_EQ(left, intersecting_facets(mesh.points, outside).size() + (turn_deg > 360 ? 1 : 0)) << turn_deg;
   }
 }
 

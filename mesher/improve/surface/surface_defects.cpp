@@ -8,8 +8,8 @@ namespace cbc3d {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFarthest = 2;  // in units of the limit: what is farther counts as this
-constexpr double kReach = 2;     // likewise: no step takes a vertex from beyond this to within the limit
+constexpr double kFarthest = 2;      // in units of the limit: what is farther counts as this
+constexpr double kSearchLimits = 2;  // likewise: no step takes a vertex from beyond this to within the limit
 
 struct Box {
   Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
@@ -39,11 +39,12 @@ bool has(const std::vector<VertexId>& sorted, VertexId v) {
 
 bool SurfaceDefects::is_better_than(const SurfaceDefects& other, bool may_trade) const {
   constexpr double kTiny = 1e-3;
-  const bool shape_no_worse =
-      may_trade ? shape() <= other.shape() : pinches <= other.pinches && cuts <= other.cuts;
-  const bool no_worse = shape_no_worse && far <= other.far && lonely <= other.lonely;
-  return no_worse && (shape() < other.shape() || far < other.far - kTiny || lonely < other.lonely - kTiny ||
-                      folds < other.folds);
+  const bool topology_no_worse =
+      may_trade ? topological() <= other.topological()
+                : pinches <= other.pinches && self_intersections <= other.self_intersections;
+  const bool no_worse = topology_no_worse && far <= other.far && uncovered <= other.uncovered;
+  return no_worse && (topological() < other.topological() || far < other.far - kTiny ||
+                      uncovered < other.uncovered - kTiny || folds < other.folds);
 }
 
 std::vector<VertexId> ring_of(const LabelledComplex& complex, const std::vector<VertexId>& vertices) {
@@ -59,23 +60,23 @@ std::vector<VertexId> ring_of(const LabelledComplex& complex, const std::vector<
   return ring;
 }
 
-void FaultMeter::make_grids() {
-  vertex_grid_ = PlaceGrid(2 * guide_.limit_mm);
+void DefectMeter::make_grids() {
+  vertex_grid_ = PlaceGrid(2 * limit_mm_);
   for (VertexId v = 0; v < complex_.mesh().points.size(); ++v) {
     if (!complex_.star(v).empty()) {
       vertex_grid_.add(complex_.mesh().points[v], v);
     }
   }
   vertex_grid_.sort();
-  point_grid_ = PlaceGrid(2 * guide_.limit_mm);
-  for (std::uint32_t p = 0; p < guide_.points.size(); ++p) {
-    point_grid_.add(guide_.points[p].centre(), p);
+  sample_grid_ = PlaceGrid(2 * limit_mm_);
+  for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+    sample_grid_.add(samples_[s].centre(), s);
   }
-  point_grid_.sort();
+  sample_grid_.sort();
   has_grids_ = true;
 }
 
-void FaultMeter::look_at(std::span<const VertexId> vertices) {
+void DefectMeter::look_at(std::span<const VertexId> vertices) {
   if (!has_grids_) {
     make_grids();
   }
@@ -83,26 +84,26 @@ void FaultMeter::look_at(std::span<const VertexId> vertices) {
   for (const VertexId v : vertices) {
     box.add(complex_.mesh().points[v]);
   }
-  points_.clear();
-  box.grow(2 * guide_.limit_mm);
-  point_grid_.for_each_near(box.low, box.high, [&](std::uint32_t p) { points_.push_back(p); });
-  std::sort(points_.begin(), points_.end());
+  near_samples_.clear();
+  box.grow(2 * limit_mm_);
+  sample_grid_.for_each_near(box.low, box.high, [&](std::uint32_t s) { near_samples_.push_back(s); });
+  std::sort(near_samples_.begin(), near_samples_.end());
   std::vector<VertexId> near;
-  box.grow(guide_.limit_mm);
+  box.grow(limit_mm_);
   vertex_grid_.for_each_near(box.low, box.high, [&](VertexId v) { near.push_back(v); });
   std::sort(near.begin(), near.end());
-  list_vertices_near_points(near);
+  list_vertices_near_samples(near);
   list_facets_near(near);
 }
 
-void FaultMeter::list_vertices_near_points(const std::vector<VertexId>& vertices) {
-  const double reach_squared = kReach * kReach * guide_.limit_mm * guide_.limit_mm;
+void DefectMeter::list_vertices_near_samples(const std::vector<VertexId>& vertices) {
+  const double search_squared = kSearchLimits * kSearchLimits * limit_mm_ * limit_mm_;
   first_near_.assign(1, 0);
   near_.clear();
-  for (const std::uint32_t p : points_) {
-    const Vec3 at = guide_.points[p].centre();
+  for (const std::uint32_t s : near_samples_) {
+    const Vec3 at = samples_[s].centre();
     for (const VertexId v : vertices) {
-      if ((complex_.mesh().points[v] - at).squared_norm() <= reach_squared) {
+      if ((complex_.mesh().points[v] - at).squared_norm() <= search_squared) {
         near_.push_back(v);
       }
     }
@@ -110,7 +111,7 @@ void FaultMeter::list_vertices_near_points(const std::vector<VertexId>& vertices
   }
 }
 
-void FaultMeter::list_facets_near(const std::vector<VertexId>& vertices) {
+void DefectMeter::list_facets_near(const std::vector<VertexId>& vertices) {
   std::vector<TetId> tets;
   for (const VertexId v : vertices) {
     if (complex_.set(v).has(kBackground)) {
@@ -121,7 +122,7 @@ void FaultMeter::list_facets_near(const std::vector<VertexId>& vertices) {
   add_facets(tets, facets_);
 }
 
-void FaultMeter::add_facets(std::vector<TetId>& tets, std::vector<Facet>& facets) const {
+void DefectMeter::add_facets(std::vector<TetId>& tets, std::vector<Facet>& facets) const {
   std::sort(tets.begin(), tets.end());
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
   for (const TetId t : tets) {
@@ -133,35 +134,35 @@ void FaultMeter::add_facets(std::vector<TetId>& tets, std::vector<Facet>& facets
   }
 }
 
-FaultMeter::Scope FaultMeter::scope_of(std::vector<VertexId> vertices) const {
+DefectMeter::Scope DefectMeter::scope_of(std::vector<VertexId> vertices) const {
   Scope scope;
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const double reach_squared = kReach * kReach * guide_.limit_mm * guide_.limit_mm;
-  for (std::uint32_t i = 0; i < points_.size(); ++i) {
-    const Vec3 at = guide_.points[points_[i]].centre();
+  const double search_squared = kSearchLimits * kSearchLimits * limit_mm_ * limit_mm_;
+  for (std::uint32_t i = 0; i < near_samples_.size(); ++i) {
+    const Vec3 at = samples_[near_samples_[i]].centre();
     if (std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) {
-          return (complex_.mesh().points[v] - at).squared_norm() <= reach_squared;
+          return (complex_.mesh().points[v] - at).squared_norm() <= search_squared;
         })) {
-      scope.points.push_back(i);
+      scope.samples.push_back(i);
     }
   }
   scope.vertices = std::move(vertices);
   return scope;
 }
 
-SurfaceDefects FaultMeter::measure(const Scope& scope, std::size_t most) const {
-  SurfaceDefects faults;
-  faults.pinches = pinches(scope.vertices);
-  if (faults.pinches <= most) {
-    count_cuts_and_folds(scope.vertices, faults);
-    faults.far = far(scope.vertices);
-    faults.lonely = lonely(scope);
+SurfaceDefects DefectMeter::measure(const Scope& scope, std::size_t most) const {
+  SurfaceDefects defects;
+  defects.pinches = pinches(scope.vertices);
+  if (defects.pinches <= most) {
+    count_intersections_and_folds(scope.vertices, defects);
+    defects.far = far(scope.vertices);
+    defects.uncovered = uncovered(scope);
   }
-  return faults;
+  return defects;
 }
 
-std::size_t FaultMeter::pinches(const std::vector<VertexId>& vertices) const {
+std::size_t DefectMeter::pinches(const std::vector<VertexId>& vertices) const {
   std::size_t sum = 0;
   for (const VertexId v : vertices) {
     const MaterialSet& set = complex_.set(v);
@@ -173,22 +174,22 @@ std::size_t FaultMeter::pinches(const std::vector<VertexId>& vertices) const {
   return sum;
 }
 
-double FaultMeter::far(const std::vector<VertexId>& vertices) const {
+double DefectMeter::far(const std::vector<VertexId>& vertices) const {
   double sum = 0;
   for (const VertexId v : vertices) {
     const MaterialSet& set = complex_.set(v);
     const Vec3& at = complex_.mesh().points[v];
     for (std::uint8_t i = 0; set.size > 1 && i < set.size; ++i) {
-      if (!guide_.places.is_near(at, set.ids[i])) {
-        const auto nearest = guide_.places.nearest(at, set.ids[i]);
-        sum += nearest ? (*nearest - at).norm() / guide_.limit_mm : kFarthest;
+      if (!domain_.is_near_boundary(at, set.ids[i])) {
+        const auto nearest = domain_.nearest_boundary(at, set.ids[i]);
+        sum += nearest ? (*nearest - at).norm() / limit_mm_ : kFarthest;
       }
     }
   }
   return sum;
 }
 
-FaultMeter::Facet FaultMeter::facet(TetId t, std::size_t n) const {
+DefectMeter::Facet DefectMeter::facet(TetId t, std::size_t n) const {
   Facet facet{};
   facet.is_outer = complex_.across(t, n) == kBackground;
   facet.behind = complex_.mesh().tets[t][n];
@@ -197,13 +198,14 @@ FaultMeter::Facet FaultMeter::facet(TetId t, std::size_t n) const {
     facet.nodes[i] = complex_.mesh().tets[t][kTetFace[n][i]];
     box.add(complex_.mesh().points[facet.nodes[i]]);
   }
-  box.grow(1e-6 * guide_.limit_mm);
+  box.grow(1e-6 * limit_mm_);
   facet.low = box.low;
   facet.high = box.high;
   return facet;
 }
 
-void FaultMeter::count_cuts_and_folds(const std::vector<VertexId>& vertices, SurfaceDefects& faults) const {
+void DefectMeter::count_intersections_and_folds(const std::vector<VertexId>& vertices,
+                                                SurfaceDefects& defects) const {
   const auto is_active = [&](const Facet& f) {
     return has(vertices, f.nodes[0]) || has(vertices, f.nodes[1]) || has(vertices, f.nodes[2]);
   };
@@ -228,30 +230,30 @@ void FaultMeter::count_cuts_and_folds(const std::vector<VertexId>& vertices, Sur
     for (std::size_t j = i + 1; j < facets.size(); ++j) {
       const Facet& g = facets[j];
       if (boxes_meet(f.low, f.high, g.low, g.high)) {
-        faults.cuts += facets_cross(points, f.nodes, g.nodes) ? 1 : 0;
+        defects.self_intersections += facets_intersect(points, f.nodes, g.nodes) ? 1 : 0;
         const bool may_fold = f.is_outer && g.is_outer;
-        faults.folds += may_fold && facets_fold(points, f.nodes, f.behind, g.nodes, g.behind) ? 1 : 0;
+        defects.folds += may_fold && facets_fold(points, f.nodes, f.behind, g.nodes, g.behind) ? 1 : 0;
       }
     }
   }
 }
 
-bool FaultMeter::is_on(VertexId v, std::uint32_t point, bool outer) const {
+bool DefectMeter::is_on(VertexId v, std::uint32_t sample, bool outer) const {
   const MaterialSet& set = complex_.set(v);
   if (set.size < 2 || outer) {
     return set.size > 1 && set.has(kBackground);
   }
-  const MaterialId label = guide_.places.label_of[guide_.points[point].own];
+  const MaterialId label = domain_.label_of()[samples_[sample].own];
   return std::any_of(set.ids.begin(), set.ids.begin() + set.size,
-                     [&](MaterialId m) { return guide_.places.label_of[m] == label; });
+                     [&](MaterialId m) { return domain_.label_of()[m] == label; });
 }
 
-double FaultMeter::distance_mm(std::uint32_t i, bool outer, VertexId& nearest) const {
-  const Vec3 at = point(i).centre();
+double DefectMeter::distance_mm(std::uint32_t i, bool outer, VertexId& nearest) const {
+  const Vec3 at = sample(i).centre();
   double least = kInfinity;
   for (std::uint32_t n = first_near_[i]; n < first_near_[i + 1]; ++n) {
     const double squared = (complex_.mesh().points[near_[n]] - at).squared_norm();
-    if (squared < least && is_on(near_[n], points_[i], outer)) {
+    if (squared < least && is_on(near_[n], near_samples_[i], outer)) {
       least = squared;
       nearest = near_[n];
     }
@@ -259,36 +261,36 @@ double FaultMeter::distance_mm(std::uint32_t i, bool outer, VertexId& nearest) c
   return std::sqrt(least);
 }
 
-bool FaultMeter::is_reached(std::uint32_t i, bool outer) const {
-  const Vec3 at = point(i).centre();
+bool DefectMeter::is_covered(std::uint32_t i, bool outer) const {
+  const Vec3 at = sample(i).centre();
   return std::any_of(near_.begin() + first_near_[i], near_.begin() + first_near_[i + 1], [&](VertexId v) {
-    return (complex_.mesh().points[v] - at).squared_norm() <= guide_.limit_mm * guide_.limit_mm &&
-           is_on(v, points_[i], outer);
+    return (complex_.mesh().points[v] - at).squared_norm() <= limit_mm_ * limit_mm_ &&
+           is_on(v, near_samples_[i], outer);
   });
 }
 
-double FaultMeter::lonely(const Scope& scope) const {
+double DefectMeter::uncovered(const Scope& scope) const {
   double sum = 0;
-  for (const std::uint32_t i : scope.points) {
+  for (const std::uint32_t i : scope.samples) {
     for (const bool outer : {false, true}) {
-      if ((outer && point(i).other != kBackground) || is_reached(i, outer)) {
+      if ((outer && sample(i).other != kBackground) || is_covered(i, outer)) {
         continue;
       }
       VertexId nearest = kNoVertex;
-      sum += std::min(kFarthest, distance_mm(i, outer, nearest) / guide_.limit_mm);
+      sum += std::min(kFarthest, distance_mm(i, outer, nearest) / limit_mm_);
     }
   }
   return sum;
 }
 
-std::vector<std::uint32_t> FaultMeter::lonely_points(const Scope& scope) const {
-  std::vector<std::uint32_t> lonely;
-  for (const std::uint32_t i : scope.points) {
-    if (!is_reached(i, false) || (point(i).other == kBackground && !is_reached(i, true))) {
-      lonely.push_back(i);
+std::vector<std::uint32_t> DefectMeter::uncovered_samples(const Scope& scope) const {
+  std::vector<std::uint32_t> uncovered;
+  for (const std::uint32_t i : scope.samples) {
+    if (!is_covered(i, false) || (sample(i).other == kBackground && !is_covered(i, true))) {
+      uncovered.push_back(i);
     }
   }
-  return lonely;
+  return uncovered;
 }
 
 namespace {
@@ -325,7 +327,7 @@ Facets all_facets(const LabelledComplex& complex) {
   return facets;
 }
 
-/// Pairs of outer facets that fold over a common edge.
+/// Pairs of outer facets that are folded at a common edge.
 std::vector<std::array<std::uint32_t, 2>> folded_facets(const std::vector<Vec3>& points,
                                                         const Facets& facets) {
   struct Side {
@@ -356,43 +358,43 @@ std::vector<std::array<std::uint32_t, 2>> folded_facets(const std::vector<Vec3>&
   return pairs;
 }
 
-/// The vertices of each pair.
-void add_pairs(const Facets& facets, const std::vector<std::array<std::uint32_t, 2>>& pairs, Seeds& faults) {
+/// Adds the vertices of each pair.
+void add_pairs(const Facets& facets, const std::vector<std::array<std::uint32_t, 2>>& pairs, Seeds& defects) {
   for (const auto& [f, g] : pairs) {
     std::vector<VertexId> seeds(facets.nodes[f].begin(), facets.nodes[f].end());
     seeds.insert(seeds.end(), facets.nodes[g].begin(), facets.nodes[g].end());
     std::sort(seeds.begin(), seeds.end());
     seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-    faults.push_back(std::move(seeds));
+    defects.push_back(std::move(seeds));
   }
 }
 
-/// Pinches, and vertices far from their boundary.
-void add_vertices(const LabelledComplex& complex, const SurfaceGuide& guide, Seeds& faults) {
-  const FaultMeter meter(complex, guide);
-  std::vector<std::uint8_t> faulty(complex.mesh().points.size(), 0);
+/// Adds pinches and far vertices.
+void add_vertices(const LabelledComplex& complex, const Domain& domain, double limit_mm, Seeds& defects) {
+  const DefectMeter meter(complex, domain, limit_mm);
+  std::vector<std::uint8_t> defective(complex.mesh().points.size(), 0);
 #pragma omp parallel for schedule(dynamic, 256)
-  for (std::size_t v = 0; v < faulty.size(); ++v) {
+  for (std::size_t v = 0; v < defective.size(); ++v) {
     const std::vector<VertexId> one = {static_cast<VertexId>(v)};
-    faulty[v] = complex.set(one[0]).size > 1 && (meter.pinches(one) > 0 || meter.far(one) > 0) ? 1 : 0;
+    defective[v] = complex.set(one[0]).size > 1 && (meter.pinches(one) > 0 || meter.far(one) > 0) ? 1 : 0;
   }
-  for (VertexId v = 0; v < faulty.size(); ++v) {
-    if (faulty[v] != 0) {
-      faults.push_back({v});
+  for (VertexId v = 0; v < defective.size(); ++v) {
+    if (defective[v] != 0) {
+      defects.push_back({v});
     }
   }
 }
 
-/// The vertices next to each place.
-void add_nearest_vertices(const LabelledComplex& complex, const std::vector<Vec3>& places, double reach_mm,
-                          Seeds& faults) {
+/// Adds the vertices next to each place.
+void add_nearest_vertices(const LabelledComplex& complex, const std::vector<Vec3>& places, double search_mm,
+                          Seeds& defects) {
   constexpr std::size_t kMost = 6;
   std::vector<std::vector<std::pair<double, VertexId>>> near(places.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t p = 0; p < places.size(); ++p) {
     for (VertexId v = 0; v < complex.mesh().points.size(); ++v) {
       const double squared = (complex.mesh().points[v] - places[p]).squared_norm();
-      if (squared <= reach_mm * reach_mm && !complex.star(v).empty()) {
+      if (squared <= search_mm * search_mm && !complex.star(v).empty()) {
         near[p].emplace_back(squared, v);
       }
     }
@@ -404,45 +406,45 @@ void add_nearest_vertices(const LabelledComplex& complex, const std::vector<Vec3
       seeds.push_back(of_place[i].second);
     }
     if (!seeds.empty()) {
-      faults.push_back(std::move(seeds));
+      defects.push_back(std::move(seeds));
     }
   }
 }
 
-void add_lonely(const LabelledComplex& complex, const SurfaceGuide& guide, Seeds& faults) {
-  constexpr std::size_t kMostPlaces = 200;  // each is sought the vertices of by a pass over all
+void add_uncovered(const LabelledComplex& complex, const Domain& domain, double limit_mm, Seeds& defects) {
+  constexpr std::size_t kMostPlaces = 200;  // each costs one scan over all vertices
   std::vector<Vec3> places;
   for (const bool outer : {false, true}) {
-    std::vector<InterfacePoint> wanted;
-    for (InterfacePoint point : guide.points) {
-      if (!outer || point.other == kBackground) {
-        point.own = outer ? kBackground : point.own;
-        point.other = point.own;
-        wanted.push_back(point);
+    std::vector<BoundarySample> wanted;
+    for (BoundarySample sample : domain.samples()) {
+      if (!outer || sample.other == kBackground) {
+        sample.own = outer ? kBackground : sample.own;
+        sample.other = sample.own;
+        wanted.push_back(sample);
       }
     }
-    const auto hosts = nearest_hosts(wanted, complex.mesh().points, complex.sets(), guide.limit_mm);
-    for (std::size_t p = 0; p < wanted.size() && places.size() < kMostPlaces; ++p) {
-      const Vec3 at = wanted[p].centre();
-      if (hosts[p] == kNoVertex && std::find(places.begin(), places.end(), at) == places.end()) {
+    const auto covering = nearest_covering_vertices(wanted, complex.mesh().points, complex.sets(), limit_mm);
+    for (std::size_t s = 0; s < wanted.size() && places.size() < kMostPlaces; ++s) {
+      const Vec3 at = wanted[s].centre();
+      if (covering[s] == kNoVertex && std::find(places.begin(), places.end(), at) == places.end()) {
         places.push_back(at);
       }
     }
   }
-  add_nearest_vertices(complex, places, 2 * guide.limit_mm, faults);
+  add_nearest_vertices(complex, places, kSearchLimits * limit_mm, defects);
 }
 
 }  // namespace
 
-FaultList find_surface_defects(const LabelledComplex& complex, const SurfaceGuide& guide) {
-  FaultList faults;
+DefectList find_surface_defects(const LabelledComplex& complex, const Domain& domain, double limit_mm) {
+  DefectList defects;
   const Facets facets = all_facets(complex);
-  add_pairs(facets, crossing_facets(complex.mesh().points, facets.nodes), faults.seeds);
-  add_pairs(facets, folded_facets(complex.mesh().points, facets), faults.folds);
-  faults.cuts = faults.seeds.size();
-  add_vertices(complex, guide, faults.seeds);
-  add_lonely(complex, guide, faults.seeds);
-  return faults;
+  add_pairs(facets, intersecting_facets(complex.mesh().points, facets.nodes), defects.seeds);
+  add_pairs(facets, folded_facets(complex.mesh().points, facets), defects.folds);
+  defects.self_intersections = defects.seeds.size();
+  add_vertices(complex, domain, limit_mm, defects.seeds);
+  add_uncovered(complex, domain, limit_mm, defects.seeds);
+  return defects;
 }
 
 }  // namespace cbc3d

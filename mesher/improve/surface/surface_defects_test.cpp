@@ -12,8 +12,9 @@ namespace {
 
 using testing::kPlane;
 using testing::kSize;
-using testing::places;
-using testing::points_on_plane;
+using testing::layers;
+using testing::PlaneDomain;
+using testing::samples_on_plane;
 using testing::two_layers;
 
 TEST(SurfaceDefects, AreBetterOnlyWhereNothingIsWorse) {
@@ -24,7 +25,8 @@ TEST(SurfaceDefects, AreBetterOnlyWhereNothingIsWorse) {
   EXPECT_FALSE((SurfaceDefects{0, 0, 1.6, 0}.is_better_than(base, true)));
   EXPECT_FALSE((SurfaceDefects{0, 0, 0, 1.3}.is_better_than(base, true)));
   EXPECT_FALSE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, false)));
-  EXPECT_TRUE((SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, true)));  // a cut for a pinch
+  EXPECT_TRUE(
+      (SurfaceDefects{3, 1, 1.5, 1.2}.is_better_than(base, true)));  // a self-intersection for a pinch
   EXPECT_FALSE((SurfaceDefects{3, 3, 0, 0}.is_better_than(base, true)));
   EXPECT_TRUE((SurfaceDefects{2, 2, 1.5, 1.2, 9}.is_better_than(base, false)));  // folds count last
   EXPECT_FALSE((SurfaceDefects{3, 3, 1.5, 1.2, 0}.is_better_than({2, 3, 1.5, 1.2, 4}, true)));
@@ -33,29 +35,28 @@ TEST(SurfaceDefects, AreBetterOnlyWhereNothingIsWorse) {
 
 TEST(SurfaceDefects, NoneInCleanLayersAndEachKindWhereItIs) {
   MaterialMesh mesh = two_layers(kSize, kPlane);
-  const ImagePlaces image = places();
-  std::vector<InterfacePoint> points = points_on_plane();
-  const SurfaceGuide guide{points, image, 1};
+  const PlaneDomain image = layers();
   {
-    const LabelledComplex complex(mesh, image.label_of);
-    EXPECT_TRUE(find_surface_defects(complex, guide).seeds.empty());
+    const LabelledComplex complex(mesh, image.label_of());
+    EXPECT_TRUE(find_surface_defects(complex, image, 1).seeds.empty());
   }
-  // A point beyond the surface's reach is lonely, and its neighbours are known.
-  points.push_back({{3, 3, 4.5F}, 1, 2});
+  // A sample beyond the limit is uncovered, and the vertices next to it are known.
+  std::vector<BoundarySample> samples = samples_on_plane();
+  samples.push_back({{3, 3, 4.5F}, 1, 2});
   {
-    const LabelledComplex complex(mesh, image.label_of);
-    const FaultList faults_found = find_surface_defects(complex, guide);
-    ASSERT_EQ(faults_found.seeds.size(), 1U);
-    for (const VertexId v : faults_found.seeds[0]) {
-      EXPECT_LE((mesh.points[v] - points.back().centre()).norm(), 1.5);
+    const PlaneDomain more = layers(samples);
+    const LabelledComplex complex(mesh, image.label_of());
+    const DefectList defects = find_surface_defects(complex, more, 1);
+    ASSERT_EQ(defects.seeds.size(), 1U);
+    for (const VertexId v : defects.seeds[0]) {
+      EXPECT_LE((mesh.points[v] - samples.back().centre()).norm(), 1.5);
     }
-    FaultMeter meter(complex, guide);
-    meter.look_at(faults_found.seeds[0]);
-    const FaultMeter::Scope scope = meter.scope_of(faults_found.seeds[0]);
-    EXPECT_NEAR(meter.measure(scope).lonely, 1.5, 1e-6);
-    EXPECT_EQ(meter.lonely_points(scope).size(), 1U);
+    DefectMeter meter(complex, more, 1);
+    meter.look_at(defects.seeds[0]);
+    const DefectMeter::Scope scope = meter.scope_of(defects.seeds[0]);
+    EXPECT_NEAR(meter.measure(scope).uncovered, 1.5, 1e-6);
+    EXPECT_EQ(meter.uncovered_samples(scope).size(), 1U);
   }
-  points.pop_back();
   // A tet beyond the plane: its tip is far from where both materials belong.
   const VertexId tip = [&] {
     for (TetId t = 0;; ++t) {
@@ -69,12 +70,12 @@ TEST(SurfaceDefects, NoneInCleanLayersAndEachKindWhereItIs) {
       }
     }
   }();
-  const LabelledComplex complex(mesh, image.label_of);
-  const FaultList faults_found = find_surface_defects(complex, guide);
-  ASSERT_EQ(faults_found.seeds.size(), 1U);
-  EXPECT_EQ(faults_found.seeds[0], std::vector<VertexId>{tip});
-  EXPECT_EQ(faults_found.cuts, 0U);
-  FaultMeter meter(complex, guide);
+  const LabelledComplex complex(mesh, image.label_of());
+  const DefectList defects = find_surface_defects(complex, image, 1);
+  ASSERT_EQ(defects.seeds.size(), 1U);
+  EXPECT_EQ(defects.seeds[0], std::vector<VertexId>{tip});
+  EXPECT_EQ(defects.self_intersections, 0U);
+  DefectMeter meter(complex, image, 1);
   EXPECT_NEAR(meter.far({tip}), 2, 1e-9);  // one millimetre from the plane, of both
   EXPECT_EQ(meter.pinches({tip}), 0U);
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/domain/domain.hpp"
 #include "mesher/improve/local/mesh_star.hpp"
-#include "mesher/improve/surface/relabel_tets.hpp"
 #include "mesher/testing/mesh_checks.hpp"
 
 namespace cbc3d::testing {
@@ -68,19 +68,53 @@ inline std::size_t faults(const MaterialMesh& mesh) {
 }
 
 /// The plane z = level, as two_layers has it, is where materials 1 and 2 meet; the sides of the box of n
-/// cubes bound both.
-inline ImagePlaces plane_at(int n, double level, double near) {
-  const auto outside = [n](const Vec3& p) {
-    return std::min({p.x, p.y, p.z, n - p.x, n - p.y, n - p.z}) <= 0;
-  };
-  return {{0, 1, 2},
-          [=](const Vec3& at, MaterialId m) {
-            return m == kBackground || outside(at) || std::fabs(at.z - level) <= near;
-          },
-          [=](const Vec3& at, MaterialId m) -> std::optional<Vec3> {
-            return m == kBackground ? at : Vec3{at.x, at.y, level};
-          },
-          [=](const Vec3& at) { return MaterialId{static_cast<MaterialId>(at.z < level ? 1 : 2)}; }};
+/// cubes bound both. Distances beyond `near` are far.
+class PlaneDomain : public Domain {
+ public:
+  PlaneDomain(int n, double level, double near, std::vector<BoundarySample> samples, std::size_t materials)
+      : n_(n), level_(level), near_(near), samples_(std::move(samples)), volumes_mm3_(materials, 0) {
+    for (std::size_t m = 0; m < materials; ++m) {
+      labels_.push_back(static_cast<Label>(m));
+      label_of_.push_back(static_cast<MaterialId>(m));
+    }
+  }
+
+  [[nodiscard]] const std::vector<Label>& labels() const override { return labels_; }
+  [[nodiscard]] const std::vector<MaterialId>& label_of() const override { return label_of_; }
+  [[nodiscard]] const std::vector<double>& volumes_mm3() const override { return volumes_mm3_; }
+  [[nodiscard]] double scale_mm() const override { return 1; }
+  [[nodiscard]] double cell_mm3() const override { return 1; }
+  [[nodiscard]] double thin_reach_mm() const override { return 1; }
+  [[nodiscard]] BoundaryDistance boundary_distance(const Vec3& x, MaterialId a, MaterialId) const override {
+    const double depth = a == 1 ? level_ - x.z : x.z - level_;
+    return {depth, {0, 0, a == 1 ? -1.0 : 1.0}, std::fabs(depth), true};
+  }
+  [[nodiscard]] bool is_thin(const BoundarySample&) const override { return false; }
+  [[nodiscard]] MaterialId material_at(const Vec3& x) const override {
+    return static_cast<MaterialId>(x.z < level_ ? 1 : 2);
+  }
+  [[nodiscard]] std::optional<Vec3> nearest_boundary(const Vec3& x, MaterialId m) const override {
+    return m == kBackground ? x : Vec3{x.x, x.y, level_};
+  }
+  [[nodiscard]] bool is_near_boundary(const Vec3& x, MaterialId m) const override {
+    const bool outside = std::min({x.x, x.y, x.z, n_ - x.x, n_ - x.y, n_ - x.z}) <= 0;
+    return m == kBackground || outside || std::fabs(x.z - level_) <= near_;
+  }
+
+ protected:
+  [[nodiscard]] std::vector<BoundarySample> find_samples() const override { return samples_; }
+
+ private:
+  int n_;
+  double level_, near_;
+  std::vector<BoundarySample> samples_;
+  std::vector<Label> labels_;
+  std::vector<MaterialId> label_of_;
+  std::vector<double> volumes_mm3_;
+};
+
+inline PlaneDomain plane_at(int n, double level, double near, std::vector<BoundarySample> samples = {}) {
+  return {n, level, near, std::move(samples), 3};
 }
 
 // What most tests look at: a box of kSize cubes whose layers meet at z = kPlane, within kNear of which their
@@ -90,24 +124,22 @@ inline constexpr double kPlane = 3;
 inline constexpr double kNear = 0.6;
 
 /// Boundary voxels on the plane between the layers, one per square.
-inline std::vector<InterfacePoint> points_on_plane() {
-  std::vector<InterfacePoint> points;
+inline std::vector<BoundarySample> samples_on_plane() {
+  std::vector<BoundarySample> samples;
   for (int j = 0; j < kSize; ++j) {
     for (int i = 0; i < kSize; ++i) {
-      points.push_back({{static_cast<float>(i + 0.5), static_cast<float>(j + 0.5), float{kPlane}}, 1, 2});
+      samples.push_back({{static_cast<float>(i + 0.5), static_cast<float>(j + 0.5), float{kPlane}}, 1, 2});
     }
   }
-  return points;
+  return samples;
 }
 
-inline ImagePlaces places() {
-  return plane_at(kSize, kPlane, kNear);
+inline PlaneDomain layers(std::vector<BoundarySample> samples = samples_on_plane()) {
+  return plane_at(kSize, kPlane, kNear, std::move(samples));
 }
 
 inline double worst_angle(const MaterialMesh& mesh) {
-  double worst = 1;
-  for (TetId t = 0; t < mesh.tets.size(); ++t) worst = std::min(worst, worst_sine_squared(mesh, {&t, 1}));
-  return worst;
+  return worst_sine_squared(mesh);
 }
 
 }  // namespace cbc3d::testing

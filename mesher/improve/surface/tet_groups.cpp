@@ -36,19 +36,19 @@ void add_parts(const LabelledComplex& complex, TetGroup tets, std::vector<TetGro
   }
 }
 
-/// Of the tets round v, and of those round each edge of v.
+/// Adds the parts of the tets around v, and of those around each edge of v.
 void add_parts_of_star(const LabelledComplex& complex, VertexId v, std::vector<TetGroup>& groups) {
   const auto star = complex.star(v);
   add_parts(complex, {star.begin(), star.end()}, groups);
   for (const VertexId w : ring_of(complex, {v})) {
-    TetGroup round_edge;
-    std::copy_if(star.begin(), star.end(), std::back_inserter(round_edge),
+    TetGroup at_edge;
+    std::copy_if(star.begin(), star.end(), std::back_inserter(at_edge),
                  [&](TetId t) { return w != v && has_node(complex.mesh().tets[t], w); });
-    add_parts(complex, std::move(round_edge), groups);
+    add_parts(complex, std::move(at_edge), groups);
   }
 }
 
-/// Groups that are one of the tets larger.
+/// The groups that have one of the tets more.
 std::vector<TetGroup> grown(const LabelledComplex& complex, const TetGroup& tets,
                             const std::vector<TetGroup>& groups) {
   std::vector<TetGroup> larger;

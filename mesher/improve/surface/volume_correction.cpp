@@ -46,11 +46,11 @@ Extent extent_of(const MaterialMesh& mesh, const TetNeighbours& neighbours, std:
   return extent;
 }
 
-class Balance {
+class VolumeCorrection {
  public:
-  Balance(MaterialMesh& mesh, const CoveredSamples& hosted, const BalanceOptions& options)
+  VolumeCorrection(MaterialMesh& mesh, const SurfaceCover& cover, const VolumeCorrectionOptions& options)
       : mesh_(mesh),
-        hosted_(hosted),
+        cover_(cover),
         options_(options),
         neighbours_(tet_neighbours(mesh.tets, mesh.points.size())),
         around_(tets_of_vertices(mesh.tets, mesh.points.size())),
@@ -72,7 +72,7 @@ class Balance {
   }
 
  private:
-  /// How far every material's surface is to go; false when all volumes are as they should be.
+  /// Finds how far every material's surface has to move; false when all volumes are right.
   bool find_steps() {
     const Extent extent = extent_of(mesh_, neighbours_, options_.wanted_mm3.size());
     std::vector<double> wanted(extent.volume_mm3.size(), 0.0), lack = wanted, area = wanted;
@@ -119,20 +119,20 @@ class Balance {
     const double floor = std::min(options_.goal_sine_squared, worst_at(v));
     for (const double share : {1.0, 0.5, 0.25}) {
       mesh_.points[v] = from + share * step;
-      if (hosted_.allow(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
+      if (cover_.may_move(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
         return;
       }
     }
     mesh_.points[v] = from;
   }
 
-  [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, star_of(around_, v)); }
+  [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, around_.of(v)); }
 
   MaterialMesh& mesh_;
-  const CoveredSamples& hosted_;
-  const BalanceOptions& options_;
+  const SurfaceCover& cover_;
+  const VolumeCorrectionOptions& options_;
   TetNeighbours neighbours_;
-  VertexTets around_;
+  VertexCells around_;
   std::vector<MaterialSet> sets_;
   std::vector<double> step_mm_;  // of every material, outwards
   std::vector<Vec3> normals_;
@@ -144,8 +144,8 @@ Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials) {
   return extent_of(mesh, tet_neighbours(mesh.tets, mesh.points.size()), materials);
 }
 
-void balance_volumes(MaterialMesh& mesh, const CoveredSamples& hosted, const BalanceOptions& options) {
-  Balance(mesh, hosted, options).run();
+void correct_volumes(MaterialMesh& mesh, const SurfaceCover& cover, const VolumeCorrectionOptions& options) {
+  VolumeCorrection(mesh, cover, options).run();
 }
 
 }  // namespace cbc3d

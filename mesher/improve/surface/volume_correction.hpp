@@ -1,18 +1,20 @@
-// What each material's volume lacks in the end, its surface gains by a small step along its normals.
+// The last correction of volumes: where a label's volume is too small or too large, its surface moves by a
+// small step along its normals.
 #pragma once
 
-#include "mesher/improve/surface/covered_samples.hpp"
+#include "mesher/improve/local/surface_cover.hpp"
 #include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d {
 
-struct BalanceOptions {
-  std::vector<double> wanted_mm3;    ///< volume of every material; 0: as it comes
-  std::vector<MaterialId> label_of;  ///< the first material of each one's label; a label's volume is balanced
-  double tolerance = 5e-4;           ///< share of a volume that is left alone
-  double step_mm = 0.05;             ///< no vertex moves farther in one round
-  double goal_sine_squared = 0;      ///< no tet's worst angle falls below this, or below what it was
-  int rounds = 20;                   ///< at most
+struct VolumeCorrectionOptions {
+  std::vector<double> wanted_mm3;  ///< volume of every material
+  std::vector<MaterialId>
+      label_of;             ///< the first material of each one's label; the volumes of labels are corrected
+  double tolerance = 5e-4;  ///< an error below this share of the volume is left
+  double step_mm = 0.05;    ///< no vertex moves farther in one round
+  double goal_sine_squared = 0;  ///< no tet's worst angle falls below this, or below what it was
+  int rounds = 20;               ///< at most
 };
 
 /// Volume of every material, and the area of its surface.
@@ -21,7 +23,8 @@ struct Extent {
 };
 Extent extent_of_materials(const MaterialMesh& mesh, std::size_t materials);
 
-/// Moves vertices between two materials; those where more meet stay. Deterministic.
-void balance_volumes(MaterialMesh& mesh, const CoveredSamples& hosted, const BalanceOptions& options);
+/// Moves vertices between two materials; those where more meet stay. Covered samples stay covered.
+/// Deterministic.
+void correct_volumes(MaterialMesh& mesh, const SurfaceCover& cover, const VolumeCorrectionOptions& options);
 
 }  // namespace cbc3d

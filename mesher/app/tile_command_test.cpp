@@ -1,0 +1,151 @@
+// Slices made one volume by `cbc3d tile`.
+#include <gtest/gtest.h>
+#include <itkBMPImageIO.h>
+#include <itkPNGImageIO.h>
+#include <itkTIFFImageIO.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+#include "mesher/core/image_io.hpp"
+
+namespace cbc3d {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::size_t kWidth = 7, kHeight = 5;
+
+template <class Format, class Value>
+void write_slice(const fs::path& path, const std::vector<Value>& values,
+                 itk::ImageIOBase::IOComponentType type, unsigned channels = 1) {
+  auto io = Format::New();
+  io->SetNumberOfDimensions(2);
+  io->SetDimensions(0, kWidth);
+  io->SetDimensions(1, values.size() / kWidth / channels);
+  io->SetComponentType(type);
+  io->SetPixelType(channels == 1 ? itk::CommonEnums::IOPixel::SCALAR : itk::CommonEnums::IOPixel::RGB);
+  io->SetNumberOfComponents(channels);
+  io->SetFileName(path.string());
+  itk::ImageIORegion region(2);
+  region.SetSize(0, kWidth);
+  region.SetSize(1, values.size() / kWidth / channels);
+  io->SetIORegion(region);
+  io->Write(values.data());
+}
+
+/// Values that differ from pixel to pixel and from slice to slice.
+template <class Value>
+std::vector<Value> slice(int k) {
+  std::vector<Value> values;
+  for (std::size_t n = 0; n < kWidth * kHeight; ++n) {
+    values.push_back(static_cast<Value>(1 + n + 40 * static_cast<std::size_t>(k)));
+  }
+  return values;
+}
+
+struct Outcome {
+  int exit_code;
+  std::string text;
+};
+
+class Tile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("cbc3d-tile-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string line =
+        "cd " + folder_.string() + " && " + CBC3D_COMMAND + " tile " + arguments + " --quiet 2>&1";
+    std::FILE* pipe = ::popen(line.c_str(), "r");
+    std::string text;
+    std::array<char, 1024> buffer;
+    while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
+      text += buffer.data();
+    }
+    return {WEXITSTATUS(::pclose(pipe)), text};
+  }
+  void expect_volume(const std::string& name) const {
+    const LabelImage volume = read_label_image(folder_ / name);
+    EXPECT_EQ(volume.frame.size, (Index3{7, 5, 3}));
+    EXPECT_EQ(volume.frame.spacing_mm, (Vec3{.012, .013, .024}));
+    EXPECT_EQ(volume.frame.origin_mm, (Vec3{1, -2, 3}));
+    for (int k = 0; k < 3; ++k) {
+      for (int j = 0; j < 5; ++j) {
+        for (int i = 0; i < 7; ++i) {
+          EXPECT_EQ(volume.labels[volume.at(i, j, k)], 1 + i + 7 * j + 40 * k);
+        }
+      }
+    }
+  }
+  fs::path folder_;
+};
+
+const std::string kPlace = " --spacing .012,.013,.024 --origin 1,-2,3";
+
+TEST_F(Tile, EveryFormatToEveryFormat) {
+  for (int k = 0; k < 3; ++k) {
+    const std::string number = std::to_string(k);
+    write_slice<itk::PNGImageIO>(folder_ / (number + ".png"), slice<unsigned char>(k),
+                                 itk::ImageIOBase::IOComponentType::UCHAR);
+    write_slice<itk::BMPImageIO>(folder_ / (number + ".bmp"), slice<unsigned char>(k),
+                                 itk::ImageIOBase::IOComponentType::UCHAR);
+    write_slice<itk::TIFFImageIO>(folder_ / (number + ".tif"), slice<unsigned short>(k),
+                                  itk::ImageIOBase::IOComponentType::USHORT);
+    write_slice<itk::PNGImageIO>(folder_ / (number + "w.png"), slice<unsigned short>(k),
+                                 itk::ImageIOBase::IOComponentType::USHORT);
+  }
+  for (const std::string slices :
+       {"0.png 1.png 2.png", "0.bmp 1.bmp 2.bmp", "0.tif 1.tif 2.tif", "0w.png 1w.png 2w.png"}) {
+    for (const std::string out : {"v.nrrd", "v.mha"}) {
+      const Outcome outcome = run(slices + " --out " + out + kPlace);
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+      expect_volume(out);
+    }
+  }
+}
+
+TEST_F(Tile, GreyInColourIsTakenColourIsNot) {
+  std::vector<unsigned char> grey, colour;
+  for (const unsigned char value : slice<unsigned char>(0)) {
+    grey.insert(grey.end(), {value, value, value});
+    colour.insert(colour.end(), {value, value, 3});
+  }
+  write_slice<itk::BMPImageIO>(folder_ / "grey.bmp", grey, itk::ImageIOBase::IOComponentType::UCHAR, 3);
+  write_slice<itk::PNGImageIO>(folder_ / "colour.png", colour, itk::ImageIOBase::IOComponentType::UCHAR, 3);
+  ASSERT_EQ(run("grey.bmp --out v.nrrd --spacing 1,1,1").exit_code, 0);
+  EXPECT_EQ(read_label_image(folder_ / "v.nrrd").labels.size(), 1 + kWidth * kHeight);
+  const Outcome refused = run("colour.png --out c.nrrd --spacing 1,1,1");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.text.find("colour"), std::string::npos) << refused.text;
+}
+
+TEST_F(Tile, OneLineForWhatIsWrongAndNoFile) {
+  write_slice<itk::PNGImageIO>(folder_ / "a.png", slice<unsigned char>(0),
+                               itk::ImageIOBase::IOComponentType::UCHAR);
+  std::vector<unsigned char> shorter = slice<unsigned char>(0);
+  shorter.resize(kWidth * 3);
+  write_slice<itk::PNGImageIO>(folder_ / "b.png", shorter, itk::ImageIOBase::IOComponentType::UCHAR);
+  std::ofstream(folder_ / "c.png") << "no image";
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"a.png b.png --out v.nrrd --spacing 1,1,1", "'b.png': it has 7 x 3"},
+      {"a.png c.png --out v.nrrd --spacing 1,1,1", "'c.png': not a PNG"},
+      {"a.png d.png --out v.nrrd --spacing 1,1,1", "'d.png': no such file"},
+      {"a.png --out v.nii.gz --spacing 1,1,1", "v.nii.gz"},
+      {"a.png --out v.nrrd --spacing 1,0,1", "--spacing 1,0,1"},
+      {"a.png --out v.nrrd --spacing 1,1", "--spacing"}};
+  for (const auto& [arguments, says] : faults) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
+    EXPECT_FALSE(fs::exists(folder_ / "v.nrrd"));
+  }
+}
+
+}  // namespace
+}  // namespace cbc3d

@@ -1,0 +1,28 @@
+#include "reports/results/columns.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cbc3d::reports {
+namespace {
+
+JobResult result(const std::string& case_name, const std::string& mesher, int threads) {
+  JobResult job;
+  job.case_name = case_name;
+  job.mesher = mesher;
+  job.threads = threads;
+  return job;
+}
+
+TEST(Columns, AreMeshersInTheOrderOfTheirFirstLines) {
+  const std::vector<JobResult> results{result("liver", "cgal", 2), result("box", "cbc3d", 1),
+                                       result("box", "cgal", 2), result("box", "cbc3d", 2)};
+  const Columns columns(results);
+  EXPECT_EQ(columns.names(), (std::vector<std::string>{"cgal", "cbc3d (1 thread)", "cbc3d (2 threads)"}));
+  EXPECT_EQ(columns.name_of(results[3]), "cbc3d (2 threads)");
+  EXPECT_EQ(columns.runs("box", "cgal"), (Runs{&results[2]}));
+  EXPECT_TRUE(columns.runs("liver", "cbc3d (1 thread)").empty());
+  EXPECT_EQ(case_names(results), (std::vector<std::string>{"liver", "box"}));
+}
+
+}  // namespace
+}  // namespace cbc3d::reports

@@ -1,0 +1,53 @@
+#include "reports/tables/catalog_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reports/tables/testing_tables.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+const TableBuilder kElementCount = catalog_table("element_count", "Element count");
+const TableBuilder kFidelity = catalog_table("fidelity", "Fidelity");
+
+TEST(CatalogTable, RowsAreTheMetricsThatNameTheTable) {
+  const Table table = table_of(catalog_table("element_quality", "Quality"), {job_line("nidus", "cgal", 1)});
+  std::vector<std::string> figures;
+  for (const Row& row : table.rows) {
+    figures.push_back(row.figure);
+  }
+  EXPECT_EQ(figures,
+            (std::vector<std::string>{"min dihedral angle (deg)", "max dihedral angle (deg)",
+                                      "min scaled Jacobian", "inverted elements", "self-intersections"}));
+}
+
+TEST(CatalogTable, FiguresMadeOfSeveral) {
+  const Json line = job_line("nidus", "cgal", 1);
+  const Table fidelity = table_of(kFidelity, {line});
+  EXPECT_EQ(row_of(fidelity, "largest volume error of a label (%)").cells[0].value, 3.25);
+  EXPECT_EQ(row_of(fidelity, "labels missing").cells[0].value, 2);
+  EXPECT_EQ(row_of(table_of(catalog_table("time", ""), {line}), "peak memory (MB)").cells[0].value, 250);
+}
+
+TEST(CatalogTable, AMesherHasAColumnForEveryThreadCount) {
+  const Table table = table_of(
+      kElementCount,
+      {job_line("nidus", "cbc3d", 1), job_line("nidus", "cbc3d", 1, 0, 2), job_line("nidus", "cgal", 1)});
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"cbc3d (1 thread)", "cbc3d (2 threads)", "cgal"}));
+}
+
+TEST(CatalogTable, AMesherThatDidNotRunACaseIsADash) {
+  const Table table = table_of(kElementCount, {job_line("nidus", "cbc3d", 1), job_line("liver", "cgal", 1)});
+  EXPECT_EQ(table.rows[1].cells[0].reason, "not run");
+}
+
+TEST(CatalogTable, VerticesAreShownForMixedMeshes) {
+  const TableBuilder vertices = for_mixed_meshes(catalog_table("vertices", ""));
+  Json mixed = job_line("nidus", "cbc3d-mixed", 1);
+  EXPECT_TRUE(table_of(vertices, {mixed}).rows.empty());
+  mixed["counts"]["hexes"] = 12;
+  EXPECT_EQ(row_of(table_of(vertices, {mixed}), "hexahedra").cells[0].value, 12);
+}
+
+}  // namespace
+}  // namespace cbc3d::reports

@@ -1,0 +1,32 @@
+#include "reports/tables/sweep_tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mesher/core/atomic_file.hpp"
+#include "reports/results/testing_folder.hpp"
+#include "reports/sweep/testing_sweep.hpp"
+#include "reports/tables/testing_tables.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+TEST(SweepTables, ShowMediansWithTheirErrorsAndOutliers) {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "sweep.json", "[]");
+  const std::vector<JobResult> results = decode_lines(sweep_lines());
+  const std::vector<cases::Case> cases;
+  const std::string text = to_markdown(sweep_table({results, cases, folder.path()}));
+  EXPECT_NE(text.find("9.000 (#5)"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.60 ±"), std::string::npos) << text;
+  const Table stages = sweep_stage_table({results, cases, folder.path()});
+  EXPECT_EQ(text_in(stages, "box, cbc3d, 2 threads", "deformation", 0), "1.2500");
+  EXPECT_EQ(text_in(stages, "box, cbc3d, 2 threads", "deformation", 2), "50.0");
+}
+
+TEST(SweepTables, ARunThatIsNoSweepHasNone) {
+  EXPECT_TRUE(table_of(sweep_table, sweep_lines()).rows.empty());
+  EXPECT_TRUE(table_of(sweep_stage_table, sweep_lines()).rows.empty());
+}
+
+}  // namespace
+}  // namespace cbc3d::reports
