@@ -11,9 +11,10 @@ using namespace bench;
 
 void TopologyChecks(benchmark::State& state) {
   const Prepared& p = prepared(state);
+  const ImageDomain domain(p.image);
   for (auto _ : state) {
     CandidateMesh mesh = p.refined.mesh;
-    benchmark::DoNotOptimize(check_topology(mesh, p.points, p.image, {}));
+    benchmark::DoNotOptimize(check_topology(mesh, p.points, domain, {}));
   }
   count_tets(state, p.refined.mesh.tets.size());
 }
