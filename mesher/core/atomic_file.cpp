@@ -25,7 +25,7 @@ void require_writable(const fs::path& path) {
     throw InputError("cannot write '" + path.string() + "': no permission to write to the folder '" +
                      folder.string() + "'; choose another place");
   }
-  // A read-only file system or a pseudo folder says yes to access() and no to a new file: try.
+  // access() allows what a read-only file system or a pseudo folder then refuses, so a file is tried.
   const fs::path probe = folder / ("." + path.filename().string() + ".probe" + std::to_string(::getpid()));
   const bool created = std::ofstream(probe).good();
   fs::remove(probe, error);

@@ -1,6 +1,6 @@
 // Four floats in a register, for kernels that read 3-vectors by the million: compilers for x86-64 and ARM
-// turn each operation into one instruction without any flag for a certain processor. Lane 3 is room for
-// anything.
+// turn each operation into one instruction without any flag for a certain processor. What lane 3
+// holds has no meaning.
 #pragma once
 
 #include <cstring>
@@ -49,19 +49,19 @@ inline Float4 operator*(float s, const Float4& a) {
   return Float4(Float4(s).lanes * a.lanes);
 }
 
-/// One lane in all lanes.
+/// A vector that has one lane of `a` in all lanes.
 template <int Lane>
 Float4 spread(const Float4& a) {
   return Float4(__builtin_shufflevector(a.lanes, a.lanes, Lane, Lane, Lane, Lane));
 }
 
-/// Lanes in another order.
+/// A vector with the lanes of `a` in another order.
 template <int A, int B, int C, int D>
 Float4 reorder(const Float4& a) {
   return Float4(__builtin_shufflevector(a.lanes, a.lanes, A, B, C, D));
 }
 
-/// Of lanes 0 to 2; lane 3 of the result is zero where those of the vectors are finite.
+/// The cross product of lanes 0 to 2; its lane 3 is zero where those of the vectors are finite.
 inline Float4 cross(const Float4& a, const Float4& b) {
   return reorder<1, 2, 0, 3>(a * reorder<1, 2, 0, 3>(b) - reorder<1, 2, 0, 3>(a) * b);
 }
@@ -72,7 +72,7 @@ inline bool any_greater(const Float4& a, const Float4& b) {
   return (greater[0] | greater[1] | greater[2] | greater[3]) != 0;
 }
 
-/// The rows of a 3x3 matrix from its columns, or the other way round.
+/// The rows of a 3x3 matrix from its columns, or the columns from its rows.
 inline void transpose(const Float4 (&from)[3], Float4 (&to)[3]) {
   const auto a = __builtin_shufflevector(from[0].lanes, from[1].lanes, 0, 4, 1, 5);
   const auto b = __builtin_shufflevector(from[0].lanes, from[1].lanes, 2, 6, 2, 6);

@@ -10,7 +10,7 @@
 namespace cbc3d {
 namespace {
 
-// Gmsh element types. Its wedge has its first triangle's normal towards the second, like ours.
+// Gmsh element types. Its wedge has the normal of its first triangle towards the second, as ours has.
 constexpr int kTet = 4;
 constexpr int kHex = 5;
 constexpr int kWedge = 6;

@@ -24,7 +24,7 @@ namespace {
 
 using Component = itk::ImageIOBase::IOComponentType;
 
-/// What a message begins with.
+/// The beginning of every message about a file.
 std::string subject_of(const fs::path& path) {
   return "cannot read '" + path.string() + "'";
 }
@@ -33,7 +33,7 @@ std::string subject_of(const fs::path& path) {
   throw InputError(subject_of(path) + ": " + what);
 }
 
-/// The one line of an ITK exception that says something.
+/// The part of an ITK exception's message that describes the fault, in one line.
 std::string brief(const itk::ExceptionObject& error) {
   std::string text = error.GetDescription();
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -62,7 +62,7 @@ void require_scalar_volume(const itk::ImageIOBase& io, const fs::path& path) {
   if (io.GetNumberOfComponents() != 1) {
     fail(path,
          "it has " + std::to_string(io.GetNumberOfComponents()) +
-             " components a voxel (a colour or vector image); give a label image with one value a voxel");
+             " components per voxel (a colour or vector image); give a label image with one value per voxel");
   }
   const unsigned dimension = io.GetNumberOfDimensions();
   if (dimension < 3) {
@@ -88,7 +88,7 @@ bool names_other_file(const fs::path& path) {
   return false;
 }
 
-/// A few bytes whose header promises gigabytes: found before any memory is asked for. Deflate packs at most
+/// Refuses a small file whose header promises gigabytes before any memory is allocated. Deflate packs at most
 /// 1032 to 1; files whose voxels lie elsewhere (detached headers) are not judged.
 void require_plausible_size(const itk::ImageIOBase& io, const fs::path& path) {
   constexpr std::uintmax_t kMostPacked = 1100, kHarmlessBytes = 64U << 20U;
@@ -120,8 +120,8 @@ ImageFrame frame_of(const itk::ImageIOBase& io, const fs::path& path) {
   return frame;
 }
 
-/// The bytes of a file that are one each stay where they are: a mapped file where they are materials already,
-/// and those in memory always.
+/// Voxels of one byte are not copied: those in memory are overwritten by their materials, and those of a
+/// mapped file stay there when they are materials already.
 template <typename T>
 void classify(FileVoxels voxels, LabelImage& image, const fs::path& path) {
   const std::size_t count = image.frame.voxel_count();
@@ -171,7 +171,7 @@ void classify_component(Component component, FileVoxels voxels, LabelImage& imag
   }
 }
 
-/// In the ordinary way.
+/// Reads the voxels with ITK, which works for every format.
 VoxelBytes read_voxels(itk::ImageIOBase& io, const fs::path& path) {
   itk::ImageIORegion region(io.GetNumberOfDimensions());
   for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) {
@@ -226,7 +226,7 @@ LabelImage read_from_inrimage(const fs::path& path) {
 }
 
 /// ITK registers its readers at static initialisation only where they are linked dynamically through its own
-/// macro; naming the three we promise costs nothing and does not depend on that.
+/// macro; registering the three promised formats costs nothing and does not depend on that.
 void register_formats() {
   static const bool registered = [] {
     itk::NiftiImageIOFactory::RegisterOneFactory();
@@ -274,7 +274,7 @@ void describe(itk::ImageIOBase& io, const ImageFrame& frame) {
   io.SetIORegion(region);
 }
 
-/// The extension decides the format, so the temporary file keeps it: ".name.part7" + extension.
+/// ITK chooses the format by the extension, so the temporary file keeps it: ".name.part7" + extension.
 std::string image_extension(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.ends_with(".nii.gz") ? ".nii.gz" : path.extension().string();

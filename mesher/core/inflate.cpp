@@ -27,7 +27,7 @@ bool inflate_gzip(std::span<const std::uint8_t> file, std::span<std::uint8_t> ou
 }
 
 bool inflate_gzip_begin(std::span<const std::uint8_t> file, std::span<std::uint8_t> out) {
-  constexpr int kGzip = 16;  // added to the window's bits it asks for gzip's frame
+  constexpr int kGzip = 16;  // zlib expects gzip's header when this is added to the window's bits
   z_stream stream{};
   if (inflateInit2(&stream, MAX_WBITS + kGzip) != Z_OK) {
     return false;

@@ -80,7 +80,8 @@ ImageFrame frame_of(const Fields& fields, const std::filesystem::path& path) {
     frame.origin_mm[axis] = number(fields, translations[axis], 0.0, path);
   }
   if (number(fields, "VDIM", 1, path) != 1) {
-    fail(path, "it has VDIM=" + fields.at("VDIM") + " values a voxel; give an image with one label a voxel");
+    fail(path,
+         "it has VDIM=" + fields.at("VDIM") + " values per voxel; give an image with one label per voxel");
   }
   if (std::min({frame.size[0], frame.size[1], frame.size[2]}) < 1 || frame.spacing_mm.min_coeff() <= 0) {
     fail(path, "its header has a size or spacing that is not positive");
@@ -138,7 +139,7 @@ void swap_bytes(std::uint8_t* bytes, std::size_t count, std::size_t component_by
   }
 }
 
-/// The rest of a file whose header has been read.
+/// Reads what follows the header; `file` stands at its end.
 void read_voxels(gzFile_s* file, std::uint8_t* bytes, std::size_t count, const std::filesystem::path& path) {
   for (std::size_t done = 0; done < count;) {
     const auto chunk = static_cast<unsigned>(std::min<std::size_t>(count - done, 1U << 28U));

@@ -1,4 +1,4 @@
-// The segmented multi-label image: the ground on which every room stands.
+// The segmented multi-label image, which every room uses.
 //
 // Notation: i, j, k   voxel indices, i fastest in memory;
 //           local mm  index times spacing: the frame of the image's own axes, origin at the centre of voxel
@@ -90,7 +90,8 @@ std::optional<Vec3> nearest_boundary_voxel(const LabelImage& image, const Vec3& 
 bool has_boundary_voxel_near(const LabelImage& image, const Vec3& local_mm, MaterialId material,
                              double reach_mm);
 
-/// The first material of each material's label: several have one where a label's regions were separated.
+/// The first material of each material's label: several have one where the regions of a label are materials
+/// of their own.
 std::vector<MaterialId> first_of_label(const LabelImage& image);
 
 }  // namespace cbc3d

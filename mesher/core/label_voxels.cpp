@@ -31,7 +31,7 @@ LabelVoxels::LabelVoxels(const LabelVoxels& other) {
   point_to_own();
 }
 
-// Vectors and mappings keep their place when they are moved, so the pointers stay good.
+// Vectors and mappings keep their memory when they are moved, so the pointers stay valid.
 LabelVoxels::LabelVoxels(LabelVoxels&& other) noexcept
     : file_(std::exchange(other.file_, std::nullopt)),
       narrow_(std::exchange(other.narrow_, {})),

@@ -28,7 +28,7 @@ inline void* data_of(const FileVoxels& voxels) {
 }
 
 /// Material indices, one byte each until one above 255 is written, then two. Reading costs a branch that is
-/// always taken the same way; loops over rows take the type once by `visit`.
+/// always taken the same way; loops over rows choose the type once by `visit`.
 class LabelVoxels {
  public:
   LabelVoxels() = default;
@@ -49,7 +49,7 @@ class LabelVoxels {
   ~LabelVoxels() = default;
 
   [[nodiscard]] std::size_t size() const { return count_; }
-  /// Two bytes a voxel.
+  /// True when a voxel has two bytes.
   [[nodiscard]] bool is_wide() const { return words_ != nullptr; }
   [[nodiscard]] std::size_t bytes() const { return count_ * (is_wide() ? 2 : 1); }
 
@@ -87,16 +87,16 @@ class LabelVoxels {
   };
   [[nodiscard]] Reference operator[](std::size_t v) { return {*this, v}; }
 
-  /// Makes room for material indices below `materials`: widens where one byte is too little.
+  /// Makes room for material indices below `materials`: widens the voxels when one byte is too small.
   void hold(std::size_t materials) {
     if (bytes_ != nullptr && materials > std::size_t{kMostNarrow} + 1) {
       widen();
     }
   }
 
-  /// `count` voxels of one material; what was there is gone.
+  /// Replaces all voxels by `count` voxels of one material.
   void assign(std::size_t count, MaterialId material);
-  /// `count` voxels of background; what was there is gone.
+  /// Replaces all voxels by `count` voxels of background.
   void resize(std::size_t count) { assign(count, kBackground); }
   void push_back(MaterialId material);
 
@@ -106,13 +106,13 @@ class LabelVoxels {
     return words_ != nullptr ? std::forward<F>(f)(static_cast<const std::uint16_t*>(words_))
                              : std::forward<F>(f)(static_cast<const std::uint8_t*>(bytes_));
   }
-  /// The same to write to. What is written must fit (hold()).
+  /// The same for writing. The indices written must fit (see hold()).
   template <typename F>
   decltype(auto) visit(F&& f) {
     return words_ != nullptr ? std::forward<F>(f)(words_) : std::forward<F>(f)(bytes_);
   }
 
-  /// To be called when no voxel is looked at for a while: a large mapped file leaves the memory until one is.
+  /// Call this when no voxel is read for a while: a large mapped file leaves the memory until one is read.
   void page_out() const {
     const auto* mapped = file_ ? std::get_if<MappedVoxels>(&*file_) : nullptr;
     if (mapped != nullptr && count_ >= kLarge) {

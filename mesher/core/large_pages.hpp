@@ -1,5 +1,5 @@
-// Memory of images in large pages, where the system has them: one fault in place of 512, and fewer misses of
-// the page table in what is read all over the place.
+// Memory of images in large pages, where the system has them: one page fault in place of 512, and fewer
+// misses of the page table where reads are scattered.
 #pragma once
 
 #include <sys/mman.h>
@@ -13,8 +13,8 @@
 
 namespace cbc3d {
 
-/// An allocator for std::vector; what is smaller than a few pages is allocated as usual. Who fills
-/// a vector in parallel is the first to touch its pages, in parallel.
+/// An allocator for std::vector; a block smaller than a few pages is allocated as usual. A vector that is
+/// filled in parallel has its pages first touched in parallel.
 template <typename T>
 struct LargePages : LeavesUninitialized {
   using value_type = T;
@@ -42,7 +42,7 @@ struct LargePages : LeavesUninitialized {
     void* const memory = whole < bytes ? nullptr : std::aligned_alloc(kPage, whole);
 #ifdef MADV_HUGEPAGE
     if (memory != nullptr) {
-      static_cast<void>(::madvise(memory, whole, MADV_HUGEPAGE));  // advice: that it is not taken is no fault
+      static_cast<void>(::madvise(memory, whole, MADV_HUGEPAGE));  // the system may ignore this advice
     }
 #endif
     return memory;

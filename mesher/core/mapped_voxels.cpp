@@ -28,7 +28,7 @@ MappedVoxels::~MappedVoxels() {
 
 void MappedVoxels::page_out() const {
 #ifdef MADV_PAGEOUT
-  static_cast<void>(::madvise(mapping_, length_, MADV_PAGEOUT));  // advice: that it is not taken is no fault
+  static_cast<void>(::madvise(mapping_, length_, MADV_PAGEOUT));  // the system may ignore this advice
 #endif
 }
 

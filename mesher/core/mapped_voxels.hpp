@@ -7,8 +7,8 @@
 
 namespace cbc3d {
 
-/// A file mapped privately: what is written stays in memory, a page at a time, and never reaches the file.
-/// Pages that were only read the system takes from memory again whenever it needs to.
+/// A file mapped privately: what is written stays in memory, page by page, and never reaches the file.
+/// The system may drop pages that were only read whenever it needs memory.
 class MappedVoxels {
  public:
   MappedVoxels(MappedVoxels&& other) noexcept;
@@ -17,8 +17,8 @@ class MappedVoxels {
 
   /// The first voxel's first byte.
   [[nodiscard]] void* data() const { return static_cast<char*>(mapping_) + offset_; }
-  /// Advises the system to take the pages that were not written from memory now; they come back when they are
-  /// looked at.
+  /// Advises the system to drop the pages that were not written now; they are read again when they are next
+  /// accessed.
   void page_out() const;
 
  private:
@@ -30,8 +30,8 @@ class MappedVoxels {
 };
 
 /// Maps the voxels of a .nrrd file that holds them itself, uncompressed, aligned and in this machine's byte
-/// order, `bytes` in all and `component_bytes` each; nothing for any other file, which then is to be read in
-/// the ordinary way.
+/// order, `bytes` in all and `component_bytes` each; none for any other file, which ITK then has to
+/// read.
 std::optional<MappedVoxels> map_raw_nrrd(const std::filesystem::path& path, std::size_t bytes,
                                          std::size_t component_bytes);
 

@@ -115,7 +115,7 @@ vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Mesh& mesh) {
   return grid;
 }
 
-/// VTK prints its faults itself, in many lines, beside telling the observers: what the user gets is our one
+/// VTK also prints its faults itself, in many lines; this silences it, so that the user gets our one
 /// line.
 class VtkSilence {
  public:
@@ -142,7 +142,7 @@ void run_writer(Writer& writer, vtkUnstructuredGrid& grid, const fs::path& path)
   }
 }
 
-/// The arrays of a grid as its writer will come to ask for them; the first offset, 0, it leaves out.
+/// The arrays of a grid in the order in which its writer asks for them; it leaves out the first offset, 0.
 void foresee_arrays(vtkUnstructuredGrid& grid, std::size_t block_bytes, ParallelDeflate& compressor) {
   const auto foresee = [&](vtkDataArray* array, vtkIdType first) {
     const auto bytes = static_cast<std::size_t>(array->GetNumberOfValues() - first) *

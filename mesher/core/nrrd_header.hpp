@@ -1,4 +1,4 @@
-// What the header of a NRRD file says of where its voxels are.
+// Where the voxels of an NRRD file are, by its header.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace cbc3d {
 
-/// Where the voxels begin if they follow the header, in one of these encodings and, of more than a byte each,
-/// in this machine's order of bytes; 0 otherwise.
+/// The offset of the first voxel when the voxels follow the header in one of these encodings and, if they
+/// have more than one byte each, in this machine's byte order; 0 otherwise.
 std::size_t nrrd_voxel_offset(const std::filesystem::path& path, std::size_t component_bytes,
                               std::initializer_list<std::string_view> encodings);
 

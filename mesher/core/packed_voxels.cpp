@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kNiftiHeader = 352;
 
-/// From `begin` on; empty where the file cannot be read.
+/// The bytes of the file from `begin` on; empty when it cannot be read.
 std::vector<std::uint8_t> bytes_of_file(const fs::path& path, std::size_t begin) {
   std::error_code error;
   const auto size = fs::file_size(path, error);
@@ -38,7 +38,7 @@ T field(std::span<const std::uint8_t> header, std::size_t at) {
   return value;
 }
 
-/// Where the voxels begin in the decompressed file; 0 when they are not what is asked for.
+/// The offset of the first voxel in the decompressed file; 0 when the voxels are not as asked for.
 std::size_t nifti_offset(std::span<const std::uint8_t> header, std::size_t component_bytes) {
   const bool known = field<std::int32_t>(header, 0) == 348 && std::memcmp(header.data() + 344, "n+1", 4) == 0;
   const bool whole = field<std::int16_t>(header, 72) == static_cast<int>(8 * component_bytes);

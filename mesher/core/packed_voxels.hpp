@@ -1,5 +1,5 @@
-// Voxels of gzip-compressed NIfTI and NRRD files: most of the time that such a file takes is in its
-// decompression, for which inflate.hpp is quicker than what ITK uses.
+// Voxels of gzip-compressed NIfTI and NRRD files: reading such a file is mostly its
+// decompression, for which inflate.hpp is faster than what ITK uses.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ namespace cbc3d {
 /// Voxels in memory behind a header.
 class VoxelBytes {
  public:
-  /// Uninitialised.
+  /// Memory without values.
   VoxelBytes(std::size_t header_bytes, std::size_t voxel_bytes);
 
   [[nodiscard]] std::uint8_t* data() const { return memory_.get() + header_bytes_; }
-  /// Decompresses a file that is the header and the voxels; false when it is not just that.
+  /// Decompresses a file that is the header and the voxels; false when it is anything else.
   [[nodiscard]] bool fill_from_gzip(std::span<const std::uint8_t> file);
   [[nodiscard]] bool fill_from_gzip(const std::filesystem::path& path);
 
@@ -34,8 +34,8 @@ class VoxelBytes {
 };
 
 /// The voxels of a .nii.gz or .nrrd file that holds them itself, gzip-compressed, aligned, in this machine's
-/// byte order and not to be rescaled, `bytes` in all and `component_bytes` each, `floating`: floats; nothing
-/// for any other file and for a damaged one, which then are to be read in the ordinary way.
+/// byte order and not rescaled, `bytes` in all and `component_bytes` each (`floating`: of floats); none for
+/// any other file and for a damaged one, which ITK then has to read.
 std::optional<VoxelBytes> unpack_voxels(const std::filesystem::path& path, std::size_t bytes,
                                         std::size_t component_bytes, bool floating);
 

@@ -13,14 +13,14 @@
 
 namespace cbc3d {
 
-/// Sets a mark to another value; true for the one thread that does so first.
+/// Sets a mark to another value; returns true in the one thread that does so first.
 inline bool is_first(std::uint32_t& mark, std::uint32_t to) {
   const std::atomic_ref<std::uint32_t> shared(mark);
   return shared.load(std::memory_order_relaxed) != to && shared.exchange(to, std::memory_order_relaxed) != to;
 }
 
-/// What f(index, add) adds by calls of add(value), at most `most` an index, for the indices below `count`, in
-/// their order.
+/// Collects the values that f(index, add) adds by calls of add(value), at most `most` for each index below
+/// `count`, in the order of the indices.
 template <typename T, typename F>
 std::vector<T> collect(std::size_t count, std::size_t most, const F& f) {
   constexpr std::size_t kLeastPiece = 1024;
@@ -53,9 +53,9 @@ std::vector<std::uint32_t> indices_where(std::size_t count, const Is& is) {
   });
 }
 
-/// Cuts `count` rows into one range per thread and runs f(begin, end) for each. To fill rows, each thread
-/// passes over all there is and takes what goes to its rows: reading it again costs less than the scattered
-/// writes, of which every thread has its share.
+/// Cuts `count` rows into one range for each thread and runs f(begin, end) on each. To fill rows, each thread
+/// reads the whole input and takes what belongs to its rows: repeated reading costs less than scattered
+/// writes, which are thereby shared among the threads.
 template <typename F>
 void for_ranges(std::size_t count, const F& f) {
   const auto parts = static_cast<std::size_t>(std::min(8, omp_get_max_threads()));
@@ -65,7 +65,7 @@ void for_ranges(std::size_t count, const F& f) {
   }
 }
 
-/// Sorts values of which no two are equal, so that there is but one order.
+/// Sorts values of which no two are equal, so that there is only one order.
 template <typename T>
 void sort_distinct(std::vector<T>& values) {
   constexpr std::size_t kLeastPiece = 4096;

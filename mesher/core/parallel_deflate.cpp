@@ -12,7 +12,7 @@ namespace {
 
 using Compressor = std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
 
-/// As a zlib stream; empty when there is no memory for it.
+/// Compresses into a zlib stream; returns an empty one when there is no memory for it.
 std::vector<std::uint8_t> compress(Compressor& with, std::span<const std::uint8_t> data) {
   if (with == nullptr) {
     return {};

@@ -1,5 +1,5 @@
-// The compression of VTK files by all threads and a quicker library than VTK's own, which does one block
-// after the other; what comes out are zlib streams like its own.
+// The compression of VTK files by all threads and a faster library; VTK's own compressor takes one block
+// after the other. Both write zlib streams.
 #pragma once
 
 #include <vtkObjectFactory.h>
@@ -12,14 +12,14 @@
 
 namespace cbc3d {
 
-/// Compresses arrays ahead, block by block in parallel, and hands VTK's writer the results when it comes to
-/// them; what was not foreseen it compresses there and then.
+/// Compresses arrays in advance, block by block in parallel, and gives VTK's writer the results when it asks
+/// for them; it compresses a block that was not announced when it is asked for.
 class ParallelDeflate : public vtkZLibDataCompressor {
  public:
   static ParallelDeflate* New() { VTK_STANDARD_NEW_BODY(ParallelDeflate); }
 
-  /// An array that will be written in blocks of that many bytes; to be called after the level is set. It must
-  /// outlive the writing.
+  /// Announces an array that will be written in blocks of `block_bytes`; call it after the level is set. The
+  /// array must outlive the writing.
   void foresee(std::span<const std::uint8_t> array, std::size_t block_bytes);
   /// How many blocks were ready when they were asked for.
   [[nodiscard]] std::size_t blocks_ready() const { return ready_; }
@@ -35,7 +35,7 @@ class ParallelDeflate : public vtkZLibDataCompressor {
   };
   struct Array {
     std::vector<Block> blocks;
-    std::size_t next = 0;  // to be asked for
+    std::size_t next = 0;  // block that the writer asks for next
   };
   std::vector<Array> arrays_;
   std::size_t ready_ = 0;

@@ -17,7 +17,7 @@ int set_thread_count(int threads) {
   omp_set_num_threads(count);
   itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(static_cast<itk::ThreadIdType>(count));
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(static_cast<itk::ThreadIdType>(count));
-  vtkSMPTools::SetBackend("Sequential");  // files are all it is used for
+  vtkSMPTools::SetBackend("Sequential");  // VTK is used for files alone
   return count;
 }
 
@@ -42,7 +42,7 @@ std::int64_t process_peak_rss_bytes() {
 }
 
 bool choose_sleeping_waits() {
-  constexpr const char* kTurns = "1000";  // some 20 us: about as long as it takes to wake a thread
+  constexpr const char* kTurns = "1000";  // about 20 us, as long as it takes to wake a thread
   return std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr &&
          ::setenv("OMP_WAIT_POLICY", "passive", 1) == 0 && ::setenv("GOMP_SPINCOUNT", kTurns, 1) == 0;
 }
@@ -54,7 +54,7 @@ void let_waiting_threads_sleep(char** argv) {
 }
 
 void keep_freed_memory() {
-  constexpr int kLargestKept = 32 << 20;  // the most that glibc takes; larger blocks go back at once
+  constexpr int kLargestKept = 32 << 20;  // glibc accepts no more; larger blocks are returned at once
   ::mallopt(M_MMAP_THRESHOLD, kLargestKept);
   ::mallopt(M_TRIM_THRESHOLD, 8 * kLargestKept);
 }

@@ -1,4 +1,4 @@
-// What every command shares: thread count, seconds and memory used.
+// What every command shares: the thread count, and the seconds and memory that it has used.
 #pragma once
 
 #include <chrono>
@@ -10,18 +10,18 @@ namespace cbc3d {
 /// cores. Returns the count in force.
 int set_thread_count(int threads);
 
-/// Writes into the environment that OpenMP's waiting threads sleep when the next work does not come at once,
-/// unless it says already how they wait: on a machine that does other things too, spinning threads hold up
-/// the one they wait for, several times over; but threads that sleep at once are woken up a thousand times a
-/// second. OpenMP reads this when it is loaded. Returns whether something was written.
+/// Sets environment variables by which OpenMP's waiting threads spin briefly and then sleep, unless they are
+/// set already. On a busy machine, threads that spin for long delay the very thread they wait for, several
+/// times over; threads that sleep at once are woken up a thousand times a second. OpenMP reads the variables
+/// when it is loaded. Returns whether something was set.
 bool choose_sleeping_waits();
 
-/// choose_sleeping_waits(), and where something was written, the program started once more, so that OpenMP
-/// reads it; call it first in main(). Does nothing where that cannot be done.
+/// Calls choose_sleeping_waits() and, when something was set, starts the program once more, so that OpenMP
+/// reads it. Call it first in main(). Does nothing when the program cannot be started again.
 void let_waiting_threads_sleep(char** argv);
 
-/// Lets the process keep freed memory for what it asks for next, instead of handing blocks back that it then
-/// gets again page by page, each to be cleared by the system: that is serial work. Call it early in main().
+/// Makes the process keep freed memory for its next allocations. Memory that is returned comes back page by
+/// page, each cleared by the system, which is serial work. Call it early in main().
 void keep_freed_memory();
 
 /// Wall-clock seconds since construction.

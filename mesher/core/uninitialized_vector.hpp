@@ -7,9 +7,9 @@
 
 namespace cbc3d {
 
-/// What makes an allocator leave elements unset that are given no value: to zero a million of them, in order
-/// to write each a moment later, is time that no second thread can share, and it is that thread which then
-/// does not have the pages near it.
+/// Makes an allocator leave elements unset that are given no value. Zeroing a million elements that are
+/// written a moment later costs serial time, and it places their pages near the thread that zeroes them,
+/// not near those that use them.
 struct LeavesUninitialized {
   template <typename U>
   void construct(U* place) {

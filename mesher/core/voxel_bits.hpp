@@ -9,7 +9,7 @@
 
 namespace cbc3d {
 
-/// Bits numbered by voxel offset, all clear at first.
+/// Bits numbered by voxel offset. All are clear at first.
 class VoxelBits {
  public:
   explicit VoxelBits(std::size_t voxels) : words_((voxels + kWordBits - 1) / kWordBits, 0) {}

@@ -5,7 +5,7 @@
 namespace cbc3d {
 namespace {
 
-/// The row at `begin` among the four that share a face with it.
+/// A row of voxels and the four rows that share a face with it.
 template <typename Voxel>
 struct RowsAround {
   const Voxel* row;
@@ -55,7 +55,7 @@ BoundaryRows::BoundaryRows(const LabelImage& image)
 void BoundaryRows::find(int j, int k, std::vector<int>& found) const {
   const ImageFrame& frame = image_.frame;
   image_.voxels.visit([&]<typename Voxel>(const Voxel* voxels) {
-    // A row of zeros is one of narrow voxels too.
+    // A row of wide zeros serves as one of narrow zeros.
     const auto* none = reinterpret_cast<const Voxel*>(none_.data());
     const auto row = [&](int at_j, int at_k) {
       return frame.contains(0, at_j, at_k) ? voxels + frame.offset(0, at_j, at_k) : none;

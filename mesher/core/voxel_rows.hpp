@@ -1,4 +1,4 @@
-// Rows of voxels looked at eight bytes at a time: nearly all of an image is alike, and is passed over so.
+// Rows of voxels read eight bytes at a time: nearly all of an image is uniform and can be skipped that way.
 #pragma once
 
 #include <algorithm>
@@ -75,7 +75,7 @@ bool is_all_of(const Voxel* row, int begin, int end, Voxel value) {
       return false;
     }
   }
-  return voxel_word(row + end - kStep) == uniform;  // some of its voxels for the second time
+  return voxel_word(row + end - kStep) == uniform;  // this word overlaps the last one
 }
 
 /// Finds the boundary voxels of the labelled materials, row by row. The outside of the image counts as
