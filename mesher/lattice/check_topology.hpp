@@ -27,7 +27,7 @@ struct TopologyOptions {
   bool enabled = false;       ///< --topology-checks
   bool one_face_rule = true;  ///< kept on the way (RefineOptions::one_face_rule)
   int image_passes = 0;       ///< the first passes, this many, in which the image at a non-manifold vertex
-                         ///< decides: its whole star becomes what the voxel there is
+                              ///< decides: its whole star becomes what the voxel there is
   double small_component = 0.01;  ///< a component below this share of its label's volume is relabelled
 };
 
