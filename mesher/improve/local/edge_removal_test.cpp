@@ -11,15 +11,15 @@
 namespace cbc3d {
 namespace {
 
+using testing::covered_count;
 using testing::expect_sound;
-using testing::hosted;
 using testing::kGood;
 using testing::kRelax;
 using testing::Trial;
 
 TEST(EdgeRemoval, ALongEdgeOfThreeTetsMakesRoomForTwo) {
-  const testing::BoundaryEverywhere boundary;
-  Patch patch = testing::make_patch(testing::tets_around_edge(3, 3), boundary);
+  const testing::BoundaryEverywhere domain;
+  Patch patch = testing::make_patch(testing::tets_around_edge(3, 3), domain);
   const testing::Summary before = testing::summary_of(patch.mesh);
   EXPECT_EQ(remove_edges(patch, kGood), 1U);
   const testing::Summary after = testing::summary_of(patch.mesh);
@@ -33,8 +33,8 @@ TEST(EdgeRemoval, ALongEdgeOfThreeTetsMakesRoomForTwo) {
 }
 
 TEST(EdgeRemoval, AGoodEdgeStays) {
-  const testing::BoundaryEverywhere boundary;
-  Patch patch = testing::make_patch(testing::tets_around_edge(6, 0.7), boundary);
+  const testing::BoundaryEverywhere domain;
+  Patch patch = testing::make_patch(testing::tets_around_edge(6, 0.7), domain);
   ASSERT_GT(testing::summary_of(patch.mesh).worst_sine_squared, kGood);
   EXPECT_EQ(remove_edges(patch, kGood), 0U);
   EXPECT_EQ(testing::summary_of(patch.mesh).tets, 6U);
@@ -44,12 +44,12 @@ TEST(EdgeRemoval, KeepsALatticeMeshSoundAndItsWorstAngle) {
   Trial trial(testing::touching_balls());
   trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
   const double worst = trial.worst_sine_squared();
-  const std::size_t hosts = hosted(trial);
+  const std::size_t covered = covered_count(trial);
   std::size_t removed = 0;
   trial.apply([&](Patch& p) { removed += remove_edges(p, kGood); });
   EXPECT_GT(removed, 10U);
   EXPECT_GE(trial.worst_sine_squared(), worst);
-  expect_sound(trial, hosts);
+  expect_sound(trial, covered);
 }
 
 }  // namespace

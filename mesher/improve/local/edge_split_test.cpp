@@ -15,8 +15,8 @@ namespace {
 const double kGoal = sine_squared_of_deg(30);
 
 TEST(EdgeSplit, ALongEdgeOfFourTetsIsSplitInTheMiddle) {
-  const testing::BoundaryEverywhere boundary;
-  Patch patch = testing::make_patch(testing::tets_around_edge(4, 6), boundary);
+  const testing::BoundaryEverywhere domain;
+  Patch patch = testing::make_patch(testing::tets_around_edge(4, 6), domain);
   const testing::Summary before = testing::summary_of(patch.mesh);
   ASSERT_LT(before.worst_sine_squared, kGoal);
   EXPECT_EQ(split_edges(patch, kGoal), 1U);
@@ -33,8 +33,8 @@ TEST(EdgeSplit, ALongEdgeOfFourTetsIsSplitInTheMiddle) {
 }
 
 TEST(EdgeSplit, GoodTetsAndEdgesBetweenMaterialsStay) {
-  const testing::BoundaryEverywhere boundary;
-  Patch good = testing::make_patch(testing::tets_around_edge(6, 0.7), boundary);
+  const testing::BoundaryEverywhere domain;
+  Patch good = testing::make_patch(testing::tets_around_edge(6, 0.7), domain);
   EXPECT_EQ(split_edges(good, kGoal), 0U);
   EXPECT_EQ(good.mesh.vertex_count(), 8U);
   // The same long edge, now where two materials meet.
@@ -44,7 +44,7 @@ TEST(EdgeSplit, GoodTetsAndEdgesBetweenMaterialsStay) {
   for (VertexId v = 0; v < whole.vertex_count(); ++v) points.push_back(whole.point(v));
   for (TetId t = 0; t < whole.tet_slots(); ++t) tets.push_back(whole.nodes(t));
   Patch parted =
-      testing::make_patch(TetComplex(points, tets, {1, 1, 2, 2}, std::vector<std::uint8_t>(6, 0)), boundary);
+      testing::make_patch(TetComplex(points, tets, {1, 1, 2, 2}, std::vector<std::uint8_t>(6, 0)), domain);
   EXPECT_EQ(split_edges(parted, kGoal), 0U);
   EXPECT_EQ(testing::summary_of(parted.mesh).tets, 4U);
 }
