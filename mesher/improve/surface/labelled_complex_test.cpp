@@ -80,7 +80,7 @@ TEST(LabelledComplex, SetsAndFacetsFollowTheMaterials) {
   std::mt19937 random(5);
   for (int n = 0; n < 50; ++n) {
     const auto t = static_cast<TetId>(random() % mesh.tets.size());
-    complex.give(t, static_cast<MaterialId>(random() % 4));
+    complex.relabel(t, static_cast<MaterialId>(random() % 4));
     for (const VertexId v : mesh.tets[t]) complex.renew_set(v);
   }
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
