@@ -75,7 +75,8 @@ ParameterSpecs described_by_program(const Preset& preset, const fs::path& bin_di
   if (!is_built(bin_dir)) return {};
   const std::string command = quoted(bin_dir / "cbc3d") + " mesh --describe-options";
   try {
-    for (const json& described : json::parse(output_of(command)).at("presets")) {
+    const json description = json::parse(output_of(command));
+    for (const json& described : description.at("presets")) {
       const bool is_named = preset.name.empty() || described.at("preset") == preset.name;
       if (is_named && described.at("mixed") == preset.mixed) return specs_of(described.at("options"));
     }

@@ -19,7 +19,7 @@ ParameterSource::ParameterSource(Reader reader) : cache_(std::make_shared<Cache>
   cache_->reader = std::move(reader);
 }
 
-const ParameterSpecs& ParameterSource::in(const std::filesystem::path& bin_dir) const {
+const ParameterSpecs& ParameterSource::in(const std::filesystem::path& bin_dir) const& {
   const std::lock_guard lock(cache_->mutex);
   const auto known = cache_->by_folder.find(bin_dir);
   return known != cache_->by_folder.end()

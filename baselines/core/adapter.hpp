@@ -43,7 +43,9 @@ class ParameterSource {
 
   /// The parameters with the programs in `bin_dir`. The program is asked on the first call for its folder
   /// only.
-  [[nodiscard]] const ParameterSpecs& in(const std::filesystem::path& bin_dir) const;
+  [[nodiscard]] const ParameterSpecs& in(const std::filesystem::path& bin_dir) const&;
+  /// A copy, for a source that does not outlive the expression.
+  [[nodiscard]] ParameterSpecs in(const std::filesystem::path& bin_dir) const&& { return in(bin_dir); }
 
  private:
   struct Cache;
