@@ -152,8 +152,15 @@ void drop_torn_line(const std::filesystem::path& file) {
 }
 
 std::string result_id(const Json& result) {
-  return result.value("case", "") + "-" + result.value("mesher", "") + "-t" +
-         std::to_string(result.value("threads", 0)) + "-r" + std::to_string(result.value("repeat", 0));
+  const auto text = [&](const char* key) {
+    const Json value = figure(result, {key});
+    return value.is_string() ? value.get<std::string>() : std::string();
+  };
+  const auto number = [&](const char* key) {
+    const Json value = figure(result, {key});
+    return std::to_string(value.is_number_integer() ? value.get<int>() : 0);
+  };
+  return text("case") + "-" + text("mesher") + "-t" + number("threads") + "-r" + number("repeat");
 }
 
 std::string file_stem(const Json& result) {
