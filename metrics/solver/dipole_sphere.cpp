@@ -129,7 +129,7 @@ DipoleSphereFigures solve_dipole_sphere(const FiniteElementMesh& mesh, const Dip
   figures.solve.assembly_seconds = watch.seconds();
   const double largest = *std::max_element(conductivities.begin(), conductivities.end());
   solve_for_free(matrix, right_side, std::vector<bool>(method.dof_count(), false), mesh.mean_size_mm() * largest,
-                 correction, figures.solve);
+                 kResidual, correction, figures.solve);
   const SurfacePotentials surface = potentials_on_surface(method, options, exact, correction);
   const double discrete_norm = surface.norm(1, 0), exact_norm = surface.norm(0, 1);
   figures.rdm = surface.norm(1 / discrete_norm, 1 / exact_norm);

@@ -201,12 +201,13 @@ ErrorFigures Galerkin::error(const std::vector<double>& u) {
 }
 
 void solve_for_free(const getfem::model_real_sparse_matrix& matrix, const std::vector<double>& right_side,
-                    const std::vector<bool>& held, double scale, std::vector<double>& u, SolveFigures& figures) {
+                    const std::vector<bool>& held, double scale, double residual, std::vector<double>& u,
+                    SolveFigures& figures) {
   const Stopwatch watch;
   std::size_t count = 0;
   const std::vector<std::size_t> number = number_free(held, count);
   const SparseMatrix part = free_part(matrix, number, count);
-  const Solution solution = solve(part, free_right_side(matrix, right_side, number, count, u));
+  const Solution solution = solve(part, free_right_side(matrix, right_side, number, count, u), residual);
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] != kHeld) {
       u[i] = solution.x[static_cast<Eigen::Index>(number[i])];

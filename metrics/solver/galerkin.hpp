@@ -95,9 +95,10 @@ class Galerkin {
 };
 
 /// Solves matrix u = right_side for the degrees of freedom that are not held; held ones keep the value they have in
-/// `u`. Fills unknowns, iterations, eigenvalues (over `largest_coefficient`) and seconds of solving.
+/// `u`. Fills unknowns, iterations, eigenvalues (that of the unscaled matrix over `scale`) and seconds of solving.
 void solve_for_free(const getfem::model_real_sparse_matrix& matrix, const std::vector<double>& right_side,
-                    const std::vector<bool>& held, double scale, std::vector<double>& u, SolveFigures& figures);
+                    const std::vector<bool>& held, double scale, double residual, std::vector<double>& u,
+                    SolveFigures& figures);
 
 /// The numbers of every cell, by its label.
 std::vector<double> per_cell(const FiniteElementMesh& mesh, const std::function<double(Label)>& value);

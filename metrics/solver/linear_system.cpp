@@ -14,8 +14,6 @@ namespace cbc3d::solver {
 
 namespace {
 
-constexpr double kResidual = 1e-8;
-
 /// Numbers in [-1, 1) that look random and are always the same (Steele et al., "Fast splittable pseudorandom number
 /// generators", 2014): a start that no eigenvector is orthogonal to.
 Eigen::VectorXd fixed_start(Eigen::Index size) {
@@ -71,12 +69,12 @@ double lanczos(const SparseMatrix& matrix, const Eigen::VectorXd& scale) {
 
 }  // namespace
 
-Solution solve(const SparseMatrix& matrix, const Eigen::VectorXd& right_side) {
+Solution solve(const SparseMatrix& matrix, const Eigen::VectorXd& right_side, double residual) {
   if (matrix.rows() == 0) {
     return {};
   }
   Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> method;
-  method.setTolerance(kResidual);
+  method.setTolerance(residual);
   method.setMaxIterations(std::max<Eigen::Index>(10000, matrix.rows()));
   method.compute(matrix);
   Solution solution;
@@ -85,7 +83,7 @@ Solution solve(const SparseMatrix& matrix, const Eigen::VectorXd& right_side) {
   if (method.info() != Eigen::Success) {
     std::ostringstream reason;
     reason << "conjugate gradients: a relative residual of " << method.error() << " after " << method.iterations()
-           << " iterations instead of " << kResidual << "; the mesh may have a cell that is nearly flat, or loose parts";
+           << " iterations instead of " << residual << "; the mesh may have a cell that is nearly flat, or loose parts";
     throw JobError(reason.str());
   }
   return solution;

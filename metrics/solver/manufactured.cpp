@@ -23,7 +23,8 @@ void add_waves(Formulas& formulas, const Box& box) {
 }
 
 ProblemFigures solve_manufactured(const FiniteElementMesh& mesh, int order, int components, Formulas formulas,
-                                  const std::string& bilinear, const std::string& linear, double largest_coefficient) {
+                                  const std::string& bilinear, const std::string& linear, double largest_coefficient,
+                                  double residual) {
   ProblemFigures figures;
   const Stopwatch watch;
   Galerkin method(mesh, order, components, std::move(formulas));
@@ -32,7 +33,7 @@ ProblemFigures solve_manufactured(const FiniteElementMesh& mesh, int order, int 
   const auto held = method.on_region(FiniteElementMesh::kBoundary);
   std::vector<double> u = method.interpolate("exact");
   figures.solve.assembly_seconds = watch.seconds();
-  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest_coefficient, u, figures.solve);
+  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest_coefficient, residual, u, figures.solve);
   figures.error = method.error(u);
   return figures;
 }
@@ -58,7 +59,7 @@ ProblemFigures solve_poisson(const FiniteElementMesh& mesh, const PoissonOptions
   }
   const double largest = *most;
   return solve_manufactured(mesh, options.order, 1, std::move(formulas), "sigma*Grad_Test_u.Grad_Test2_u",
-                            "sigma*Grad(exact).Grad_Test_u", largest);
+                            "sigma*Grad(exact).Grad_Test_u", largest, options.residual);
 }
 
 Lame lame_of(double young, double poisson_ratio) {
@@ -83,7 +84,8 @@ ProblemFigures solve_elasticity(const FiniteElementMesh& mesh, const ElasticityO
   const auto stiffness = per_cell(mesh, [&](Label label) { return lame(label).lambda + 2 * lame(label).mu; });
   const double largest = *std::max_element(stiffness.begin(), stiffness.end());
   return solve_manufactured(mesh, options.order, 3, std::move(formulas), kElasticForm,
-                            "(La*Trace(Grad(exact))*Id(3)+Mu*(Grad(exact)+Grad(exact)')):Grad_Test_u", largest);
+                            "(La*Trace(Grad(exact))*Id(3)+Mu*(Grad(exact)+Grad(exact)')):Grad_Test_u", largest,
+                            options.residual);
 }
 
 }  // namespace cbc3d::solver

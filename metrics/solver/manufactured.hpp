@@ -20,6 +20,7 @@ struct PoissonOptions {
   /// The exact field as a formula of X; empty: w(X) = cos(q1) cos(q2) cos(q3), q = 4 pi / 3 (X - lower corner of the
   /// box) / longest side of the box, a wave one and a half times as long as the box.
   std::string exact{};
+  double residual = kResidual;
 };
 
 /// - div(conductivity grad u) = f with u given at the boundary.
@@ -33,6 +34,7 @@ struct ElasticityOptions {
   ByLabel poisson_ratio{{}, [](Label) { return .3; }};
   /// The exact displacement; empty: (cos cos cos, sin cos cos, cos sin cos) of the q above.
   std::string exact{};
+  double residual = kResidual;
 };
 
 /// - div(lambda div u I + mu (grad u + grad u^T)) = f with u given at the boundary.

@@ -107,7 +107,7 @@ PressurisedSphereFigures solve_pressurised_sphere(FiniteElementMesh& mesh, const
   const std::vector<bool> held = method.on_region(kOuter);
   std::vector<double> u = method.interpolate("exact");
   figures.problem.solve.assembly_seconds = watch.seconds();
-  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest, u, figures.problem.solve);
+  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest, kResidual, u, figures.problem.solve);
   figures.problem.error = displacement_error(method, u);
   figures.has_interface = mesh.cells().region(FiniteElementMesh::kInterfaces).size() > 0;
   if (figures.has_interface) {
