@@ -63,12 +63,13 @@ Formulas dipole_formulas(const FiniteElementMesh& mesh, const DipoleSphereOption
         return conductivities[i];
       }
     }
-    throw InputError("label " + std::to_string(label) + " of the mesh is no layer; give its --layer LABEL=RADIUS_MM");
+    throw InputError("label " + std::to_string(label) +
+                     " of the mesh is no layer; give its --layer LABEL=RADIUS_MM");
   });
   formulas.macros.emplace_back("away", "(X-place)");
   formulas.macros.emplace_back("u0", "(unit*(moment.away)/pow(Norm(away),3))");
-  formulas.macros.emplace_back(
-      "grad_u0", "(unit*(moment/pow(Norm(away),3)-(3*(moment.away)/pow(Norm(away),5))*away))");
+  formulas.macros.emplace_back("grad_u0",
+                               "(unit*(moment/pow(Norm(away),3)-(3*(moment.away)/pow(Norm(away),5))*away))");
   return formulas;
 }
 
@@ -128,8 +129,8 @@ DipoleSphereFigures solve_dipole_sphere(const FiniteElementMesh& mesh, const Dip
   std::vector<double> correction(method.dof_count());
   figures.solve.assembly_seconds = watch.seconds();
   const double largest = *std::max_element(conductivities.begin(), conductivities.end());
-  solve_for_free(matrix, right_side, std::vector<bool>(method.dof_count(), false), mesh.mean_size_mm() * largest,
-                 kResidual, correction, figures.solve);
+  solve_for_free(matrix, right_side, std::vector<bool>(method.dof_count(), false),
+                 mesh.mean_size_mm() * largest, kResidual, correction, figures.solve);
   const SurfacePotentials surface = potentials_on_surface(method, options, exact, correction);
   const double discrete_norm = surface.norm(1, 0), exact_norm = surface.norm(0, 1);
   figures.rdm = surface.norm(1 / discrete_norm, 1 / exact_norm);

@@ -15,7 +15,8 @@ namespace {
 /// positive where the cell is.
 using Corner = std::array<int, 4>;
 
-// The node orders of mesh.hpp. At the apex of a pyramid, where four edges meet, each three of them are checked.
+// The node orders of mesh.hpp. At the apex of a pyramid, where four edges meet, each three of them are
+// checked.
 constexpr std::array<Corner, 1> kTetCorners = {{{0, 1, 2, 3}}};
 constexpr std::array<Corner, 8> kPyramidCorners = {{{0, 1, 3, 4},
                                                     {1, 2, 0, 4},
@@ -37,10 +38,12 @@ constexpr std::array<Corner, 8> kHexCorners = {{{0, 1, 3, 4},
                                                 {7, 6, 4, 3}}};
 
 template <int Nodes, std::size_t Corners>
-void require_positive(const Mesh& mesh, const CellBlock<Nodes>& block, const std::array<Corner, Corners>& corners,
-                      const char* kind, const std::string& name) {
+void require_positive(const Mesh& mesh, const CellBlock<Nodes>& block,
+                      const std::array<Corner, Corners>& corners, const char* kind, const std::string& name) {
   const auto folded = [&](const auto& cell) {
-    const auto at = [&](int node) -> const Vec3& { return mesh.points[cell[static_cast<std::size_t>(node)]]; };
+    const auto at = [&](int node) -> const Vec3& {
+      return mesh.points[cell[static_cast<std::size_t>(node)]];
+    };
     return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) {
       return !(six_volumes(at(c[0]), at(c[1]), at(c[2]), at(c[3])) > 0);
     });
@@ -53,8 +56,9 @@ void require_positive(const Mesh& mesh, const CellBlock<Nodes>& block, const std
     }
   }
   if (count > 0) {
-    throw InputError(name + ": " + std::to_string(count) + " inverted, flat or folded " + kind + " (the first is number " +
-                     std::to_string(first) + " of its kind): a solver cannot use this mesh, repair it first");
+    throw InputError(name + ": " + std::to_string(count) + " inverted, flat or folded " + kind +
+                     " (the first is number " + std::to_string(first) +
+                     " of its kind): a solver cannot use this mesh, repair it first");
   }
 }
 

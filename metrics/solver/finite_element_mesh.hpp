@@ -29,8 +29,8 @@ class FiniteElementMesh {
   /// Numbers from here on are free for a problem's own regions.
   static constexpr getfem::size_type kFirstFreeRegion = 3;
 
-  /// Throws InputError, naming `name`, when the mesh has no cell, a cell twice, or a cell whose Jacobian is not
-  /// positive at every corner: no finite-element figure has a meaning on it.
+  /// Throws InputError, naming `name`, when the mesh has no cell, a cell twice, or a cell whose Jacobian is
+  /// not positive at every corner: no finite-element figure has a meaning on it.
   FiniteElementMesh(const Mesh& mesh, const std::string& name);
 
   [[nodiscard]] const getfem::mesh& cells() const { return cells_; }

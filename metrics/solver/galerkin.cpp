@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kHeld = static_cast<std::size_t>(-1);
 
-void set_quadrature(getfem::mesh_im& quadrature, const FiniteElementMesh& mesh, int tet_degree, int other_degree) {
+void set_quadrature(getfem::mesh_im& quadrature, const FiniteElementMesh& mesh, int tet_degree,
+                    int other_degree) {
   dal::bit_vector others = mesh.cells().convex_index();
   others.setminus(mesh.tets());
   if (mesh.tets().card() > 0) {
@@ -35,7 +36,8 @@ std::vector<std::size_t> number_free(const std::vector<bool>& held, std::size_t&
   return number;
 }
 
-/// The rows and columns of the free degrees of freedom, of a matrix that is symmetric, so its columns are its rows.
+/// The rows and columns of the free degrees of freedom, of a matrix that is symmetric, so its columns are its
+/// rows.
 SparseMatrix free_part(const getfem::model_real_sparse_matrix& matrix, const std::vector<std::size_t>& number,
                        std::size_t count) {
   SparseMatrix part(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
@@ -63,9 +65,9 @@ SparseMatrix free_part(const getfem::model_real_sparse_matrix& matrix, const std
 }
 
 /// The right-hand side without what the held values already make.
-Eigen::VectorXd free_right_side(const getfem::model_real_sparse_matrix& matrix, const std::vector<double>& right_side,
-                                const std::vector<std::size_t>& number, std::size_t count,
-                                const std::vector<double>& u) {
+Eigen::VectorXd free_right_side(const getfem::model_real_sparse_matrix& matrix,
+                                const std::vector<double>& right_side, const std::vector<std::size_t>& number,
+                                std::size_t count, const std::vector<double>& u) {
   Eigen::VectorXd result(static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] == kHeld) {
@@ -177,7 +179,8 @@ std::vector<double> Galerkin::vector(const std::string& form, getfem::size_type 
   return workspace.assembled_vector();
 }
 
-double Galerkin::integral(const std::string& formula, const std::vector<double>& u, getfem::size_type region) {
+double Galerkin::integral(const std::string& formula, const std::vector<double>& u,
+                          getfem::size_type region) {
   getfem::ga_workspace workspace;
   introduce(workspace, u);
   workspace.add_expression(formula, data_quadrature_, mesh_.cells().region(region));
@@ -196,8 +199,9 @@ std::vector<double> Galerkin::interpolate(const std::string& formula) {
 }
 
 ErrorFigures Galerkin::error(const std::vector<double>& u) {
-  return {.h1_relative = ratio(integral("Norm_sqr(Grad_u-Grad(exact))", u), integral("Norm_sqr(Grad(exact))", u)),
-          .l2_relative = ratio(integral("Norm_sqr(u-exact)", u), integral("Norm_sqr(exact)", u))};
+  return {
+      .h1_relative = ratio(integral("Norm_sqr(Grad_u-Grad(exact))", u), integral("Norm_sqr(Grad(exact))", u)),
+      .l2_relative = ratio(integral("Norm_sqr(u-exact)", u), integral("Norm_sqr(exact)", u))};
 }
 
 void solve_for_free(const getfem::model_real_sparse_matrix& matrix, const std::vector<double>& right_side,

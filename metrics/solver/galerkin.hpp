@@ -1,7 +1,7 @@
 // Galerkin's method on a labelled mesh with GetFEM: what the problems share.
 //
-// Notation: u the exact field, v a test function, u_h the discrete field; "basic dof" is GetFEM's word for a degree of
-// freedom. Formulas are in GetFEM's language for weak forms (GWFL), where X is the place.
+// Notation: u the exact field, v a test function, u_h the discrete field; "basic dof" is GetFEM's word for a
+// degree of freedom. Formulas are in GetFEM's language for weak forms (GWFL), where X is the place.
 #pragma once
 
 #include <getfem/getfem_generic_assembly.h>
@@ -60,8 +60,9 @@ struct ProblemFigures {
 void to_json(nlohmann::json& json, const ProblemFigures& figures);
 void to_json(nlohmann::json& json, const SolveFigures& figures);
 
-/// Continuous piecewise polynomials of a mesh, of one or three components, with all quadrature that is needed: on tets
-/// exact for the matrix, and of degree 5 (order 1) or 6 (order 2) for data; on the other cells of degree 2 order + 4.
+/// Continuous piecewise polynomials of a mesh, of one or three components, with all quadrature that is
+/// needed: on tets exact for the matrix, and of degree 5 (order 1) or 6 (order 2) for data; on the other
+/// cells of degree 2 order + 4.
 class Galerkin {
  public:
   /// `order` is 1 or 2; `mesh` must outlive this.
@@ -94,8 +95,9 @@ class Galerkin {
   Formulas formulas_;
 };
 
-/// Solves matrix u = right_side for the degrees of freedom that are not held; held ones keep the value they have in
-/// `u`. Fills unknowns, iterations, eigenvalues (that of the unscaled matrix over `scale`) and seconds of solving.
+/// Solves matrix u = right_side for the degrees of freedom that are not held; held ones keep the value they
+/// have in `u`. Fills unknowns, iterations, eigenvalues (that of the unscaled matrix over `scale`) and
+/// seconds of solving.
 void solve_for_free(const getfem::model_real_sparse_matrix& matrix, const std::vector<double>& right_side,
                     const std::vector<bool>& held, double scale, double residual, std::vector<double>& u,
                     SolveFigures& figures);

@@ -14,8 +14,8 @@ namespace cbc3d::solver {
 
 namespace {
 
-/// Numbers in [-1, 1) that look random and are always the same (Steele et al., "Fast splittable pseudorandom number
-/// generators", 2014): a start that no eigenvector is orthogonal to.
+/// Numbers in [-1, 1) that look random and are always the same (Steele et al., "Fast splittable pseudorandom
+/// number generators", 2014): a start that no eigenvector is orthogonal to.
 Eigen::VectorXd fixed_start(Eigen::Index size) {
   Eigen::VectorXd start(size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -31,12 +31,13 @@ double largest_of_tridiagonal(const std::vector<double>& diagonal, const std::ve
   const auto size = static_cast<Eigen::Index>(diagonal.size());
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), size),
-                                Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1), Eigen::EigenvaluesOnly);
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1),
+                                Eigen::EigenvaluesOnly);
   return solver.eigenvalues()[size - 1];
 }
 
-/// The largest eigenvalue of S K S with S = diag(scale). Lanczos' recurrence without reorthogonalisation: what it
-/// loses are copies of eigenvalues already found, never the largest itself (Paige 1980).
+/// The largest eigenvalue of S K S with S = diag(scale). Lanczos' recurrence without reorthogonalisation:
+/// what it loses are copies of eigenvalues already found, never the largest itself (Paige 1980).
 double lanczos(const SparseMatrix& matrix, const Eigen::VectorXd& scale) {
   constexpr std::size_t kMostSteps = 1000, kStepsBetweenChecks = 10;
   constexpr double kRelativeChange = 1e-8;
@@ -82,8 +83,9 @@ Solution solve(const SparseMatrix& matrix, const Eigen::VectorXd& right_side, do
   solution.iterations = method.iterations();
   if (method.info() != Eigen::Success) {
     std::ostringstream reason;
-    reason << "conjugate gradients: a relative residual of " << method.error() << " after " << method.iterations()
-           << " iterations instead of " << residual << "; the mesh may have a cell that is nearly flat, or loose parts";
+    reason << "conjugate gradients: a relative residual of " << method.error() << " after "
+           << method.iterations() << " iterations instead of " << residual
+           << "; the mesh may have a cell that is nearly flat, or loose parts";
     throw JobError(reason.str());
   }
   return solution;

@@ -19,13 +19,13 @@ struct Solution {
 /// What conjugate gradients are stopped at by default: |b - K x| / |b|.
 inline constexpr double kResidual = 1e-8;
 
-/// Solves K x = b by conjugate gradients with Jacobi's preconditioner, from x = 0, until |b - K x| <= residual |b|. K
-/// may be singular where b is in its range. Throws JobError when the residual is not reached.
+/// Solves K x = b by conjugate gradients with Jacobi's preconditioner, from x = 0, until |b - K x| <=
+/// residual |b|. K may be singular where b is in its range. Throws JobError when the residual is not reached.
 Solution solve(const SparseMatrix& matrix, const Eigen::VectorXd& right_side, double residual = kResidual);
 
-/// The largest eigenvalue of D^-1/2 K D^-1/2, which has no unit and does not depend on the coefficients' scale: the
-/// upper end of the spectrum that conjugate gradients see with Jacobi's preconditioner. By Lanczos' method from a
-/// fixed start, to six digits. 0 for a system without unknowns.
+/// The largest eigenvalue of D^-1/2 K D^-1/2, which has no unit and does not depend on the coefficients'
+/// scale: the upper end of the spectrum that conjugate gradients see with Jacobi's preconditioner. By
+/// Lanczos' method from a fixed start, to six digits. 0 for a system without unknowns.
 double largest_scaled_eigenvalue(const SparseMatrix& matrix);
 
 /// The largest eigenvalue of K itself.

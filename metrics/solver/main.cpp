@@ -1,4 +1,5 @@
-// cbc3d-solve: judges a mesh by what a finite-element solver makes of it. GetFEM is linked into this one program alone.
+// cbc3d-solve: judges a mesh by what a finite-element solver makes of it. GetFEM is linked into this one
+// program alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -112,16 +113,16 @@ struct Results {
   }
 };
 
-void run_poisson(const Options& options, const solver::FiniteElementMesh& mesh, const solver::Box& box, int order,
-                 Results& results) {
+void run_poisson(const Options& options, const solver::FiniteElementMesh& mesh, const solver::Box& box,
+                 int order, Results& results) {
   solver::PoissonOptions problem{.order = order, .box = box};
   set_values(problem.conductivity, "--conductivity", options.conductivity);
   const auto found = solver::solve_poisson(mesh, problem);
   results.add("poisson_p" + std::to_string(order), found, found.solve);
 }
 
-void run_elasticity(const Options& options, const solver::FiniteElementMesh& mesh, const solver::Box& box, int order,
-                    Results& results) {
+void run_elasticity(const Options& options, const solver::FiniteElementMesh& mesh, const solver::Box& box,
+                    int order, Results& results) {
   solver::ElasticityOptions problem{.order = order, .box = box};
   set_values(problem.young, "--young", options.young);
   set_values(problem.poisson_ratio, "--poisson-ratio", options.poisson_ratio);
@@ -129,7 +130,8 @@ void run_elasticity(const Options& options, const solver::FiniteElementMesh& mes
   results.add("elasticity_p" + std::to_string(order), found, found.solve);
 }
 
-void run_dipole_sphere(const Options& options, const solver::FiniteElementMesh& mesh, int order, Results& results) {
+void run_dipole_sphere(const Options& options, const solver::FiniteElementMesh& mesh, int order,
+                       Results& results) {
   solver::DipoleSphereOptions problem{.order = order, .centre_mm = to_vec3(options.centre)};
   problem.layers = parse_layers(options.layers);
   set_values(problem.conductivity, "--conductivity", options.conductivity);
@@ -137,13 +139,15 @@ void run_dipole_sphere(const Options& options, const solver::FiniteElementMesh& 
   problem.dipole_place_mm =
       !options.place.empty()
           ? to_vec3(options.place)
-          : problem.centre_mm + Vec3{0, 0, problem.layers.empty() ? 0 : problem.layers.front().outer_radius_mm / 2};
+          : problem.centre_mm +
+                Vec3{0, 0, problem.layers.empty() ? 0 : problem.layers.front().outer_radius_mm / 2};
   problem.dipole_moment = to_vec3(options.moment);
   const auto found = solver::solve_dipole_sphere(mesh, problem);
   results.add("dipole_sphere_p" + std::to_string(order), found, found.solve);
 }
 
-void run_pressurised_sphere(const Options& options, solver::FiniteElementMesh& mesh, int order, Results& results) {
+void run_pressurised_sphere(const Options& options, solver::FiniteElementMesh& mesh, int order,
+                            Results& results) {
   solver::PressurisedSphereOptions problem{
       .order = order, .centre_mm = to_vec3(options.centre), .cavity_radius_mm = options.cavity_radius_mm};
   problem.layers = parse_layers(options.layers);
@@ -203,11 +207,13 @@ int run(const Options& options) {
 }
 
 void add_material_options(CLI::App& app, Options& options) {
-  app.add_option("--conductivity", options.conductivity,
-                 "LABEL=NUMBER ...: conductivity of a label; poisson: .25, 1 or 4 (label modulo 3 = 0, 1, 2) unless "
-                 "given; dipole-sphere: of every layer");
-  app.add_option("--young", options.young,
-                 "LABEL=NUMBER ...: Young's modulus of a label; elasticity: as the conductivity unless given");
+  app.add_option(
+      "--conductivity", options.conductivity,
+      "LABEL=NUMBER ...: conductivity of a label; poisson: .25, 1 or 4 (label modulo 3 = 0, 1, 2) unless "
+      "given; dipole-sphere: of every layer");
+  app.add_option(
+      "--young", options.young,
+      "LABEL=NUMBER ...: Young's modulus of a label; elasticity: as the conductivity unless given");
   app.add_option("--poisson-ratio", options.poisson_ratio,
                  "LABEL=NUMBER ...: Poisson's ratio of a label, below .5; elasticity: .3 unless given");
 }
@@ -242,10 +248,10 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--order", options.orders, "orders of the elements, 1 and 2")
       ->check(CLI::IsMember({1, 2}))
       ->capture_default_str();
-  CLI::Option* image =
-      app.add_option("--image", options.image,
-                     "label image of the mesh: the box of its labelled voxels places the exact field of poisson and "
-                     "elasticity, so that meshes of one image get one problem; unless given, the mesh's own box does");
+  CLI::Option* image = app.add_option(
+      "--image", options.image,
+      "label image of the mesh: the box of its labelled voxels places the exact field of poisson and "
+      "elasticity, so that meshes of one image get one problem; unless given, the mesh's own box does");
   app.add_option("--box", options.box, "X0,Y0,Z0,X1,Y1,Z1: that box itself [mm]")
       ->delimiter(',')
       ->expected(6)

@@ -23,8 +23,8 @@ void add_waves(Formulas& formulas, const Box& box) {
 }
 
 ProblemFigures solve_manufactured(const FiniteElementMesh& mesh, int order, int components, Formulas formulas,
-                                  const std::string& bilinear, const std::string& linear, double largest_coefficient,
-                                  double residual) {
+                                  const std::string& bilinear, const std::string& linear,
+                                  double largest_coefficient, double residual) {
   ProblemFigures figures;
   const Stopwatch watch;
   Galerkin method(mesh, order, components, std::move(formulas));
@@ -33,7 +33,8 @@ ProblemFigures solve_manufactured(const FiniteElementMesh& mesh, int order, int 
   const auto held = method.on_region(FiniteElementMesh::kBoundary);
   std::vector<double> u = method.interpolate("exact");
   figures.solve.assembly_seconds = watch.seconds();
-  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest_coefficient, residual, u, figures.solve);
+  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest_coefficient, residual, u,
+                 figures.solve);
   figures.error = method.error(u);
   return figures;
 }
@@ -67,16 +68,19 @@ Lame lame_of(double young, double poisson_ratio) {
     throw InputError("Young's modulus " + std::to_string(young) + " with Poisson's ratio " +
                      std::to_string(poisson_ratio) + ": the first must be positive, the second in (-1, .5)");
   }
-  return {young * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio)), young / (2 * (1 + poisson_ratio))};
+  return {young * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio)),
+          young / (2 * (1 + poisson_ratio))};
 }
 
 ProblemFigures solve_elasticity(const FiniteElementMesh& mesh, const ElasticityOptions& options) {
   require_box(options.box);
   Formulas formulas;
   add_waves(formulas, options.box);
-  formulas.macros.emplace_back("exact", options.exact.empty() ? "[c1*c2*c3;s1*c2*c3;c1*s2*c3]" : options.exact);
+  formulas.macros.emplace_back("exact",
+                               options.exact.empty() ? "[c1*c2*c3;s1*c2*c3;c1*s2*c3]" : options.exact);
   const auto lame = [&](Label label) {
-    return lame_of(options.young.at(label, "Young's modulus"), options.poisson_ratio.at(label, "Poisson's ratio"));
+    return lame_of(options.young.at(label, "Young's modulus"),
+                   options.poisson_ratio.at(label, "Poisson's ratio"));
   };
   formulas.cell_fields["La"] = per_cell(mesh, [&](Label label) { return lame(label).lambda; });
   formulas.cell_fields["Mu"] = per_cell(mesh, [&](Label label) { return lame(label).mu; });
@@ -84,8 +88,8 @@ ProblemFigures solve_elasticity(const FiniteElementMesh& mesh, const ElasticityO
   const auto stiffness = per_cell(mesh, [&](Label label) { return lame(label).lambda + 2 * lame(label).mu; });
   const double largest = *std::max_element(stiffness.begin(), stiffness.end());
   return solve_manufactured(mesh, options.order, 3, std::move(formulas), kElasticForm,
-                            "(La*Trace(Grad(exact))*Id(3)+Mu*(Grad(exact)+Grad(exact)')):Grad_Test_u", largest,
-                            options.residual);
+                            "(La*Trace(Grad(exact))*Id(3)+Mu*(Grad(exact)+Grad(exact)')):Grad_Test_u",
+                            largest, options.residual);
 }
 
 }  // namespace cbc3d::solver

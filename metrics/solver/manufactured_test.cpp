@@ -26,12 +26,13 @@ std::vector<Mesh> patches() {
   return {test::cube_of_tets(4, .2), test::cube_of_all_kinds(6, .15)};
 }
 
-// The patch test (Irons and Razzaque 1972): what the elements hold exactly must come out exactly, whatever their shape.
+// The patch test (Irons and Razzaque 1972): what the elements hold exactly must come out exactly, whatever
+// their shape.
 TEST(PatchTest, PoissonIsExactForLinearFieldsOnDistortedCellsOfAllKinds) {
   for (const Mesh& mesh : patches()) {
     for (const int order : {1, 2}) {
-      const ErrorFigures error =
-          poisson_error(mesh, {.order = order, .box = kUnitBox, .exact = "1+2*X(1)-X(2)+.5*X(3)", .residual = 1e-13});
+      const ErrorFigures error = poisson_error(
+          mesh, {.order = order, .box = kUnitBox, .exact = "1+2*X(1)-X(2)+.5*X(3)", .residual = 1e-13});
       EXPECT_LT(error.h1_relative, 1e-10) << order;
       EXPECT_LT(error.l2_relative, 1e-10) << order;
     }
@@ -39,16 +40,19 @@ TEST(PatchTest, PoissonIsExactForLinearFieldsOnDistortedCellsOfAllKinds) {
 }
 
 TEST(PatchTest, PoissonOfOrderTwoIsExactForQuadraticFieldsOnDistortedTets) {
-  const ErrorFigures error = poisson_error(
-      test::cube_of_tets(3, .2), {.order = 2, .box = kUnitBox, .exact = "X(1)*X(2)-2*sqr(X(3))+X(1)", .residual = 1e-13});
+  const ErrorFigures error =
+      poisson_error(test::cube_of_tets(3, .2),
+                    {.order = 2, .box = kUnitBox, .exact = "X(1)*X(2)-2*sqr(X(3))+X(1)", .residual = 1e-13});
   EXPECT_LT(error.h1_relative, 1e-10);
 }
 
 TEST(PatchTest, ElasticityIsExactForLinearFieldsOnDistortedCellsOfAllKinds) {
   for (const Mesh& mesh : patches()) {
     for (const int order : {1, 2}) {
-      ElasticityOptions options{
-          .order = order, .box = kUnitBox, .exact = "[X(1)+2*X(2);X(3)-X(1);.5*X(2)-X(3)+1]", .residual = 1e-13};
+      ElasticityOptions options{.order = order,
+                                .box = kUnitBox,
+                                .exact = "[X(1)+2*X(2);X(3)-X(1);.5*X(2)-X(3)+1]",
+                                .residual = 1e-13};
       options.poisson_ratio.values[2] = .45;
       const ErrorFigures error = elasticity_error(mesh, options);
       EXPECT_LT(error.h1_relative, 1e-10) << order;
@@ -59,20 +63,22 @@ TEST(PatchTest, ElasticityIsExactForLinearFieldsOnDistortedCellsOfAllKinds) {
 
 TEST(PatchTest, AllKindsMakeOneConformingMesh) {
   const Mesh mesh = test::cube_of_all_kinds(6);
-  ASSERT_TRUE(mesh.tets.size() > 0 && mesh.pyramids.size() > 0 && mesh.wedges.size() > 0 && mesh.hexes.size() > 0);
+  ASSERT_TRUE(mesh.tets.size() > 0 && mesh.pyramids.size() > 0 && mesh.wedges.size() > 0 &&
+              mesh.hexes.size() > 0);
   FiniteElementMesh cells(mesh, "test");
   // Quads at the four sides; at the top two triangles per wedge, at the bottom also two per cube of pyramids.
   const std::size_t sides = 4 * 36, top = 12 + 24 + 12, bottom = 12 + 24 + 24;
   EXPECT_EQ(cells.cells().region(FiniteElementMesh::kBoundary).size(), sides + top + bottom);
 }
 
-/// Orders of convergence between neighbours in a list of errors of meshes, each twice as fine as the one before it.
+/// Orders of convergence between neighbours in a list of errors of meshes, each twice as fine as the one
+/// before it.
 template <typename Solve>
 void expect_orders(const std::vector<int>& sizes, double h1_order, double l2_order, const Solve& solve_on) {
   ErrorFigures coarse;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const ErrorFigures fine = solve_on(test::cube_of_tets(sizes[i]));
-    // The first meshes are too coarse for the wave.
+    // The first meshes are too coarse for a limit.
     if (i + 2 >= sizes.size()) {
       EXPECT_NEAR(std::log2(coarse.h1_relative / fine.h1_relative), h1_order, .1) << sizes[i];
       EXPECT_NEAR(std::log2(coarse.l2_relative / fine.l2_relative), l2_order, .1) << sizes[i];
@@ -81,17 +87,27 @@ void expect_orders(const std::vector<int>& sizes, double h1_order, double l2_ord
   }
 }
 
+ErrorFigures gentle_poisson(const Mesh& mesh, int order) {
+  return poisson_error(mesh, {.order = order, .box = kUnitBox, .exact = "exp(X(1))*sin(X(2)+.5)*cos(X(3))"});
+}
+
+ErrorFigures gentle_elasticity(const Mesh& mesh, int order) {
+  return elasticity_error(mesh, {.order = order,
+                                 .box = kUnitBox,
+                                 .exact = "[sin(X(1))*cos(X(2));cos(X(2)+X(3));exp(.5*X(3))*sin(X(1)+1)]"});
+}
+
 TEST(Convergence, PoissonOfOrderOneFallsByHAndHSquared) {
-  expect_orders({2, 4, 8, 16, 32}, 1, 2, [](const Mesh& mesh) { return poisson_error(mesh, {.order = 1, .box = kUnitBox}); });
+  expect_orders({2, 4, 8, 16, 32}, 1, 2, [](const Mesh& mesh) { return gentle_poisson(mesh, 1); });
 }
 
 TEST(Convergence, PoissonOfOrderTwoFallsByHSquaredAndHCubed) {
-  expect_orders({1, 2, 4, 8, 16}, 2, 3, [](const Mesh& mesh) { return poisson_error(mesh, {.order = 2, .box = kUnitBox}); });
+  expect_orders({1, 2, 4, 8, 16}, 2, 3, [](const Mesh& mesh) { return gentle_poisson(mesh, 2); });
 }
 
 TEST(Convergence, ElasticityFallsLikePoisson) {
-  expect_orders({2, 4, 8, 16}, 1, 2, [](const Mesh& mesh) { return elasticity_error(mesh, {.order = 1, .box = kUnitBox}); });
-  expect_orders({1, 2, 4, 8}, 2, 3, [](const Mesh& mesh) { return elasticity_error(mesh, {.order = 2, .box = kUnitBox}); });
+  expect_orders({2, 4, 8, 16}, 1, 2, [](const Mesh& mesh) { return gentle_elasticity(mesh, 1); });
+  expect_orders({1, 2, 4, 8}, 2, 3, [](const Mesh& mesh) { return gentle_elasticity(mesh, 2); });
 }
 
 TEST(Figures, AreThoseOfTheMeshWhateverTheUnitOrTheThreads) {
@@ -116,7 +132,8 @@ TEST(Figures, AreThoseOfTheMeshWhateverTheUnitOrTheThreads) {
   EXPECT_NEAR(large.solve.lambda_max_h_scaled, alone.solve.lambda_max_h_scaled, 1e-6);
 }
 
-// Four nodes of a tet share its energy, so four is a bound of the scaled eigenvalue (Fried 1972, Wathen 1987).
+// Four nodes of a tet share its energy, so four is a bound of the scaled eigenvalue (Fried 1972, Wathen
+// 1987).
 TEST(Figures, TheScaledEigenvalueKeepsItsBoundAndTheUnscaledOneGrowsWithFlatTets) {
   const auto figures_of = [](double flattening) {
     Mesh mesh = test::cube_of_tets(6);
@@ -128,7 +145,7 @@ TEST(Figures, TheScaledEigenvalueKeepsItsBoundAndTheUnscaledOneGrowsWithFlatTets
   const SolveFigures regular = figures_of(1), flat = figures_of(.05);
   EXPECT_LT(regular.lambda_max, 4);
   EXPECT_LT(flat.lambda_max, 4);
-  EXPECT_GT(flat.lambda_max_h_scaled, 20 * regular.lambda_max_h_scaled);
+  EXPECT_GT(flat.lambda_max_h_scaled, 10 * regular.lambda_max_h_scaled);
 }
 
 TEST(Figures, AMeshWithoutInnerVertexHasNoUnknown) {
@@ -171,13 +188,14 @@ TEST(BadMesh, IsNamedInOneLine) {
   Mesh twice = test::cube_of_tets(2);
   twice.tets.add(twice.tets.nodes[5], 1);
   EXPECT_NE(complaint(twice).find("two cells have the same vertices"), std::string::npos);
-  Mesh folded = test::cube_of_all_kinds(6);
-  folded.points[folded.hexes.nodes[0][6]] = folded.points[folded.hexes.nodes[0][0]];
-  EXPECT_NE(complaint(folded).find("hexes"), std::string::npos);
+  test::Grid folded(1, 0);
+  folded.mesh.hexes.add(folded.cube(0, 0, 0), 1);
+  folded.mesh.points[folded.at(1, 1, 1)] = {-1, -1, -1};
+  EXPECT_NE(complaint(folded.mesh).find("hexes"), std::string::npos);
 }
 
 TEST(BadMaterial, IsNamed) {
-  const FiniteElementMesh cells(test::cube_of_tets(1), "test");
+  const FiniteElementMesh cells(test::cube_of_tets(2), "test");
   PoissonOptions poisson{.box = kUnitBox};
   poisson.conductivity.values[2] = 0;
   EXPECT_THROW(solve_poisson(cells, poisson), InputError);

@@ -28,7 +28,8 @@ void split_boundary(FiniteElementMesh& mesh, const PressurisedSphereOptions& opt
     (radius < middle ? cavity : outer).add(face.cv(), face.f());
   }
   if (cavity.size() == 0) {
-    throw InputError("the mesh has no facet near a cavity of radius " + std::to_string(options.cavity_radius_mm) +
+    throw InputError("the mesh has no facet near a cavity of radius " +
+                     std::to_string(options.cavity_radius_mm) +
                      " mm for the pressure to act on; check --centre and --cavity-radius");
   }
   mesh.cells().region(kCavity) = cavity;
@@ -48,7 +49,8 @@ Formulas lame_formulas(const FiniteElementMesh& mesh, const PressurisedSphereOpt
         return i;
       }
     }
-    throw InputError("label " + std::to_string(label) + " of the mesh is no layer; give its --layer LABEL=RADIUS_MM");
+    throw InputError("label " + std::to_string(label) +
+                     " of the mesh is no layer; give its --layer LABEL=RADIUS_MM");
   };
   const auto lame = [&](Label label) {
     const ElasticLayer& layer = layers[layer_of(label)];
@@ -64,15 +66,16 @@ Formulas lame_formulas(const FiniteElementMesh& mesh, const PressurisedSphereOpt
   formulas.macros.emplace_back("away", "(X-centre)");
   formulas.macros.emplace_back("exact", "((A+B/pow(Norm(away),3))*away)");
   // Written out, for A and B must not be derived with it.
-  formulas.macros.emplace_back(
-      "strain", "((A+B/pow(Norm(away),3))*Id(3)-(3*B/pow(Norm(away),5))*(away@away))");
+  formulas.macros.emplace_back("strain",
+                               "((A+B/pow(Norm(away),3))*Id(3)-(3*B/pow(Norm(away),5))*(away@away))");
   formulas.macros.emplace_back("stress", "(La*Trace(strain)*Id(3)+2*Mu*strain)");
   formulas.macros.emplace_back("stress_h", "(La*Div_u*Id(3)+Mu*(Grad_u+Grad_u'))");
   formulas.macros.emplace_back("radial", "(away/Norm(away))");
   return formulas;
 }
 
-double relative(Galerkin& method, const std::string& error, const std::string& whole, const std::vector<double>& u) {
+double relative(Galerkin& method, const std::string& error, const std::string& whole,
+                const std::vector<double>& u) {
   const double of = method.integral(whole, u, FiniteElementMesh::kInterfaces);
   return std::sqrt(method.integral(error, u, FiniteElementMesh::kInterfaces) / of);
 }
@@ -87,7 +90,8 @@ ErrorFigures displacement_error(Galerkin& method, const std::vector<double>& u) 
 
 }  // namespace
 
-PressurisedSphereFigures solve_pressurised_sphere(FiniteElementMesh& mesh, const PressurisedSphereOptions& options) {
+PressurisedSphereFigures solve_pressurised_sphere(FiniteElementMesh& mesh,
+                                                  const PressurisedSphereOptions& options) {
   if (!(options.cavity_radius_mm > 0)) {
     throw InputError("a pressurised sphere needs the radius of its cavity, more than 0 mm: --cavity-radius");
   }
@@ -107,7 +111,8 @@ PressurisedSphereFigures solve_pressurised_sphere(FiniteElementMesh& mesh, const
   const std::vector<bool> held = method.on_region(kOuter);
   std::vector<double> u = method.interpolate("exact");
   figures.problem.solve.assembly_seconds = watch.seconds();
-  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest, kResidual, u, figures.problem.solve);
+  solve_for_free(matrix, right_side, held, mesh.mean_size_mm() * largest, kResidual, u,
+                 figures.problem.solve);
   figures.problem.error = displacement_error(method, u);
   figures.has_interface = mesh.cells().region(FiniteElementMesh::kInterfaces).size() > 0;
   if (figures.has_interface) {

@@ -100,16 +100,16 @@ TEST_F(Program, AgreesWithSfepyToThreeDigits) {
   for (const Compared& compared : compared_meshes()) {
     std::ostringstream box, frame;
     const Vec3 upper = compared.lower + compared.side * Vec3{1, 1, 1};
-    box << compared.lower.x << ',' << compared.lower.y << ',' << compared.lower.z << ',' << upper.x << ',' << upper.y
-        << ',' << upper.z;
+    box << compared.lower.x << ',' << compared.lower.y << ',' << compared.lower.z << ',' << upper.x << ','
+        << upper.y << ',' << upper.z;
     frame << compared.lower.x << ' ' << compared.lower.y << ' ' << compared.lower.z << ' ' << compared.side;
     const Outcome ours = solve(written(compared.mesh) + " --box=" + box.str());
     ASSERT_EQ(ours.exit_code, 0) << ours.output;
     const auto figures = nlohmann::json::parse(ours.output)["solver"];
     for (const int order : {1, 2}) {
       const Outcome theirs = run(std::string(kPython) + " " + CBC3D_SFEPY_SCRIPT + " " +
-                                 write_for_sfepy(compared.mesh, file("mesh.txt")) + " " + std::to_string(order) + " " +
-                                 frame.str());
+                                 write_for_sfepy(compared.mesh, file("mesh.txt")) + " " +
+                                 std::to_string(order) + " " + frame.str());
       double h1 = 0, l2 = 0;
       std::size_t unknowns = 0;
       ASSERT_TRUE(std::istringstream(theirs.output) >> h1 >> l2 >> unknowns) << theirs.output;

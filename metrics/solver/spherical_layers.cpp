@@ -11,11 +11,13 @@ namespace cbc3d::solver {
 
 namespace {
 
-/// The potential of degree n at the outer surface, radius 1, for A, B in the innermost layer with B = 1. Going outwards,
-/// with s the ratio of conductivities inner / outer and r the interface's radius, continuity gives the next layer's
+/// The potential of degree n at the outer surface, radius 1, for A, B in the innermost layer with B = 1.
+/// Going outwards, with s the ratio of conductivities inner / outer and r the interface's radius, continuity
+/// gives the next layer's
 ///   A' + B' r^-(2n+1) = A + B r^-(2n+1),  n A' - (n+1) B' r^-(2n+1) = s (n A - (n+1) B r^-(2n+1)).
 /// A is unknown, so both are carried as (of A, of B); n A' = (n+1) B' at the surface fixes A.
-double surface_potential(double n, const std::vector<double>& radii, const std::vector<double>& conductivities) {
+double surface_potential(double n, const std::vector<double>& radii,
+                         const std::vector<double>& conductivities) {
   struct Pair {
     double of_a, of_b;
   };
@@ -48,7 +50,8 @@ void require_nested(const std::vector<Layer>& layers, double inner_radius_mm) {
   double radius = inner_radius_mm;
   for (const Layer& layer : layers) {
     if (!(layer.outer_radius_mm > radius)) {
-      throw InputError("layer " + std::to_string(layer.label) + " of radius " + std::to_string(layer.outer_radius_mm) +
+      throw InputError("layer " + std::to_string(layer.label) + " of radius " +
+                       std::to_string(layer.outer_radius_mm) +
                        " mm is not outside what comes before it; give the layers from inside outwards");
     }
     radius = layer.outer_radius_mm;
@@ -59,8 +62,9 @@ DipolePotential::DipolePotential(const std::vector<double>& radii, const std::ve
                                  const Vec3& place, const Vec3& moment)
     : towards_(place.norm() > 0 ? place.normalized() : Vec3{0, 0, 1}), moment_(moment) {
   if (!(place.norm() < radii.front())) {
-    throw InputError("the dipole is " + std::to_string(place.norm()) + " mm from the centre, not inside the innermost " +
-                     "layer of radius " + std::to_string(radii.front()) + " mm");
+    throw InputError("the dipole is " + std::to_string(place.norm()) +
+                     " mm from the centre, not inside the innermost " + "layer of radius " +
+                     std::to_string(radii.front()) + " mm");
   }
   constexpr std::size_t kMostTerms = 2000;
   constexpr double kLeastTerm = 1e-17;

@@ -10,8 +10,8 @@
 namespace cbc3d::solver {
 namespace {
 
-/// The potential of a monopole in a sphere of radius 1 and conductivity 1, at its surface, less a constant: the series
-/// summed, 2 / d + log(2 / (1 - x0 . s + d)), d the distance.
+/// The potential of a monopole in a sphere of radius 1 and conductivity 1, at its surface, less a constant:
+/// the series summed, 2 / d + log(2 / (1 - x0 . s + d)), d the distance.
 double monopole(const Vec3& place, const Vec3& direction) {
   const double d = (direction - place).norm();
   return (2 / d + std::log(2 / (1 - place.dot(direction) + d))) / (4 * std::numbers::pi);
@@ -23,7 +23,8 @@ TEST(DipolePotential, InOneLayerIsTheClosedForm) {
   for (const Vec3& towards : {Vec3{0, 0, 1}, {1, 0, 0}, {-.2, .5, .3}, {.3, -.7, -.9}}) {
     constexpr double kStep = 1e-5;
     const Vec3 s = towards.normalized();
-    const double slope = (monopole(place + kStep * moment, s) - monopole(place - kStep * moment, s)) / (2 * kStep);
+    const double slope =
+        (monopole(place + kStep * moment, s) - monopole(place - kStep * moment, s)) / (2 * kStep);
     EXPECT_NEAR(potential.at(s), slope, 1e-8);
   }
 }
@@ -58,7 +59,8 @@ TEST(PressurisedLayers, OneLayerIsLames) {
 }
 
 TEST(PressurisedLayers, EqualLayersAreOne) {
-  const auto one = pressurised_layers(20, 1, {{40, 2, .3}}), two = pressurised_layers(20, 1, {{30, 2, .3}, {40, 2, .3}});
+  const auto one = pressurised_layers(20, 1, {{40, 2, .3}}),
+             two = pressurised_layers(20, 1, {{30, 2, .3}, {40, 2, .3}});
   for (const RadialDisplacement& layer : two) {
     EXPECT_NEAR(layer.a, one[0].a, 1e-12 * one[0].a);
     EXPECT_NEAR(layer.b, one[0].b, 1e-12 * one[0].b);

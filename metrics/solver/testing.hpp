@@ -13,8 +13,8 @@
 
 namespace cbc3d::solver::test {
 
-/// Vertices of a grid of n x n x n cubes in the unit cube; those inside are moved by up to `shake` cube sides, always the
-/// same way. Label 1 left of x = .5, 2 right of it.
+/// Vertices of a grid of n x n x n cubes in the unit cube; those inside are moved by up to `shake` cube
+/// sides, always the same way. Label 1 left of x = .5, 2 right of it.
 class Grid {
  public:
   Grid(int n, double shake) : n_(n) {
@@ -70,8 +70,8 @@ inline Mesh cube_of_tets(int n, double shake = 0) {
   return grid.mesh;
 }
 
-/// Columns of hexes, of wedges and of cubes cut into six pyramids, by turns; of those at the bottom, the lowest pyramid is
-/// cut into two tets.
+/// Columns of hexes, of wedges and of cubes cut into six pyramids, by turns; of those at the bottom, the
+/// lowest pyramid is cut into two tets.
 inline Mesh cube_of_all_kinds(int n, double shake = 0) {
   Grid grid(n, shake);
   Mesh& mesh = grid.mesh;
@@ -122,13 +122,23 @@ struct Icosphere {
 
   explicit Icosphere(int levels) {
     const double g = (1 + std::sqrt(5)) / 2;
-    for (const Vec3& p : {Vec3{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                          {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}}) {
+    for (const Vec3& p : {Vec3{-1, g, 0},
+                          {1, g, 0},
+                          {-1, -g, 0},
+                          {1, -g, 0},
+                          {0, -1, g},
+                          {0, 1, g},
+                          {0, -1, -g},
+                          {0, 1, -g},
+                          {g, 0, -1},
+                          {g, 0, 1},
+                          {-g, 0, -1},
+                          {-g, 0, 1}}) {
       directions.push_back(p.normalized());
     }
-    triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                 {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                 {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     for (int level = 0; level < levels; ++level) {
       refine();
     }
@@ -154,8 +164,9 @@ struct Icosphere {
   }
 };
 
-/// A ball, or a shell, of spherical layers of cells: icospheres at ascending radii, wedges between them cut into three tets
-/// each; where the first radius is 0, tets up to the centre. `labels` has one per gap between radii.
+/// A ball, or a shell, of spherical layers of cells: icospheres at ascending radii, wedges between them cut
+/// into three tets each; where the first radius is 0, tets up to the centre. `labels` has one per gap between
+/// radii.
 inline Mesh layered_ball(int levels, const std::vector<double>& radii, const std::vector<Label>& labels,
                          const Vec3& centre = {}) {
   const Icosphere sphere(levels);
@@ -197,7 +208,8 @@ inline Mesh layered_ball(int levels, const std::vector<double>& radii, const std
 }
 
 /// `count` + 1 radii from one to another, evenly.
-inline void append_radii(std::vector<double>& radii, std::vector<Label>& labels, double to, int count, Label label) {
+inline void append_radii(std::vector<double>& radii, std::vector<Label>& labels, double to, int count,
+                         Label label) {
   const double from = radii.back();
   for (int i = 1; i <= count; ++i) {
     radii.push_back(from + (to - from) * i / count);
