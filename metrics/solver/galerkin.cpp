@@ -126,7 +126,7 @@ Galerkin::Galerkin(const FiniteElementMesh& mesh, int order, int components, For
   space_.set_classical_finite_element(static_cast<getfem::dim_type>(order));
   per_cell_.set_classical_discontinuous_finite_element(0);
   set_quadrature(matrix_quadrature_, mesh, order == 1 ? 1 : 2, 2 * order + 4);
-  set_quadrature(data_quadrature_, mesh, order == 1 ? 5 : 6, 2 * order + 4);
+  set_quadrature(data_quadrature_, mesh, order == 1 ? 5 : 8, 2 * order + 4);
   // GetFEM wants one number per degree of freedom of a field, numbered its own way.
   for (auto& [name, values] : formulas_.cell_fields) {
     std::vector<double> by_dof(values.size());

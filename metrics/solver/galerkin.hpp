@@ -61,7 +61,7 @@ void to_json(nlohmann::json& json, const ProblemFigures& figures);
 void to_json(nlohmann::json& json, const SolveFigures& figures);
 
 /// Continuous piecewise polynomials of a mesh, of one or three components, with all quadrature that is
-/// needed: on tets exact for the matrix, and of degree 5 (order 1) or 6 (order 2) for data; on the other
+/// needed: on tets exact for the matrix, and of degree 5 (order 1) or 8 (order 2) for data; on the other
 /// cells of degree 2 order + 4.
 class Galerkin {
  public:
