@@ -94,7 +94,7 @@ TEST(PressurisedSphere, ConvergesToLame) {
   for (const double poisson_ratio : {.3, .49}) {
     for (const int order : {1, 2}) {
       std::vector<double> displacement, slope, stress, radial;
-      for (int level = 1; level <= 3; ++level) {
+      for (int level = 1; level <= (order == 1 ? 3 : 2); ++level) {
         FiniteElementMesh mesh(shell(level), "shell");
         const auto figures = solve_pressurised_sphere(mesh, shell_options(order, poisson_ratio));
         displacement.push_back(figures.problem.error.l2_relative);
