@@ -178,12 +178,12 @@ Json configuration_of(const Job& job, const std::vector<std::string>& argv) {
 }
 
 /// The seed that the mesher works with, by its parameter of that name.
-Json seed_of(const Job& job) {
+Json seed_of(const Job& job, const std::filesystem::path& bin_dir) {
   const auto given = job.parameters.find("seed");
   if (given != job.parameters.end()) {
     return given->second;
   }
-  for (const baselines::ParameterSpec& spec : job.mesher->parameters) {
+  for (const baselines::ParameterSpec& spec : job.mesher->parameters.in(bin_dir)) {
     if (spec.key == "seed") {
       return spec.default_value;
     }
@@ -303,7 +303,7 @@ Json identity_of(const Job& job, const Bench& bench) {
   origin["program_sha256"] = program_digest(argv.front());
   origin["evaluator_sha256"] = program_digest(bench.evaluate_command.front());
   origin["command"] = argv;
-  origin["seed"] = seed_of(job);
+  origin["seed"] = seed_of(job, bench.bin_dir);
   origin["mesher_description"] = job.mesher->description;
   origin["mesher_licence"] = job.mesher->licence;
   origin["mesher_deterministic"] = job.mesher->deterministic;
