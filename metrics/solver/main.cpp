@@ -10,7 +10,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/core/progress.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "mesher/core/runtime.hpp"
 #include "metrics/solver/manufactured.hpp"
 #include "metrics/solver/sphere_phantoms.hpp"
@@ -185,7 +185,7 @@ int run(const Options& options) {
   if (!options.json.empty()) {
     cbc3d::require_writable(options.json);
   }
-  cbc3d::Progress progress(options.quiet);
+  cbc3d::TerminalProgress progress(options.quiet);
   progress.step("reading", 0);
   solver::FiniteElementMesh mesh(cbc3d::read_mesh(options.mesh), options.mesh);
   const auto [box, box_from] = find_box(options, mesh);

@@ -82,7 +82,7 @@ TEST_F(Runner, EveryKindOfEndIsALineAndTheRunGoesOn) {
     EXPECT_EQ(results[n]["reason"], expected[n].second);
     EXPECT_EQ(results[n]["mesh_file"].is_null(), n != 5);
   }
-  EXPECT_EQ(summary_line(results), "6 jobs: 1 ok, 2 failed, 1 crashed, 1 timeout, 1 out_of_memory");
+  EXPECT_EQ(summary_line(decode_lines(results)), "6 jobs: 1 ok, 2 failed, 1 crashed, 1 timeout, 1 out_of_memory");
 }
 
 TEST_F(Runner, AGoodJobHasFiguresTimesAndProvenance) {
