@@ -137,7 +137,7 @@ Values measure(const MeshView& view, const Groups& groups) {
   values.edge_ratio.resize(view.cell_count());
   values.radius_ratio.resize(view.mesh().tets.size());
   values.height_ratio.resize(view.mesh().tets.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (view.cell_count() > kWorthThreads)
   for (std::size_t c = 0; c < view.cell_count(); ++c) {
     const CellView cell = view.cell(c);
     const std::size_t label = view.label_index(c), at = groups.first[label] + groups.place[c];
@@ -203,7 +203,7 @@ void find_kinds(const MeshView& view, MeshShape& shape) {
       continue;
     }
     std::vector<float> ratios(ends[kind + 1] - ends[kind]), edges(ratios.size());
-#pragma omp parallel for
+#pragma omp parallel for if (ratios.size() > kWorthThreads)
     for (std::size_t n = 0; n < ratios.size(); ++n) {
       const CellView cell = view.cell(ends[kind] + n);
       ratios[n] = static_cast<float>(mean_ratio(cell, mesh.points));
@@ -302,13 +302,13 @@ MeshShape element_shape(const MeshView& view) {
   Values values = measure(view, groups);
   MeshShape shape;
   shape.per_label.resize(view.labels().size() <= kMostLabelsInFull ? view.labels().size() : 0);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (view.cell_count() > kWorthThreads)
   for (std::size_t n = 0; n < kMeasures * shape.per_label.size(); ++n) {
     const std::size_t l = n / kMeasures;
     find_distribution(n % kMeasures, values, {groups.first[l], groups.first[l + 1]},
                       {groups.first_tet[l], groups.first_tet[l + 1]}, shape.per_label[l]);
   }
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (view.cell_count() > kWorthThreads)
   for (std::size_t which = 0; which < kMeasures; ++which) {
     find_distribution(which, values, {0, groups.first.back()}, {0, groups.first_tet.back()}, shape.all);
   }

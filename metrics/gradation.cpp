@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 std::vector<double> volumes_mm3(const MeshView& view) {
   const std::vector<Vec3>& points = view.mesh().points;
   std::vector<double> volumes(view.cell_count());
-#pragma omp parallel for
+#pragma omp parallel for if (volumes.size() > kWorthThreads)
   for (std::size_t c = 0; c < volumes.size(); ++c) {
     const TetSplit split = split_into_tets(view.cell(c));
     double volume = 0;
@@ -68,7 +68,7 @@ void add_neighbours(const CellView& cell, VertexId v, std::vector<VertexId>& nei
 VertexFigures vertex_figures(const MeshView& view, const VertexCells& at) {
   const std::vector<Vec3>& points = view.mesh().points;
   VertexFigures figures{std::vector<std::uint32_t>(points.size()), std::vector<float>(points.size())};
-#pragma omp parallel
+#pragma omp parallel if (points.size() > kWorthThreads)
   {
     std::vector<VertexId> neighbours;
 #pragma omp for schedule(dynamic, 4096)

@@ -7,6 +7,7 @@
 
 #include "mesher/core/voxel_rows.hpp"
 #include "metrics/box_tree.hpp"
+#include "metrics/reduce.hpp"
 
 namespace cbc3d::metrics {
 namespace {
@@ -77,7 +78,7 @@ std::vector<std::pair<std::uint32_t, std::size_t>> cover(const MeshView& view, c
                                                          const std::vector<std::uint32_t>& wanted,
                                                          Bits& agreed) {
   std::vector<std::pair<std::uint32_t, std::size_t>> overfilled;
-#pragma omp parallel
+#pragma omp parallel if (view.cell_count() > kWorthThreads)
   {
     std::vector<std::pair<std::uint32_t, std::size_t>> mine;
 #pragma omp for schedule(dynamic, 1024) nowait

@@ -460,7 +460,7 @@ SurfaceShapes surface_shapes(const MeshView& view, const LabelImage& image, cons
   SurfaceShapes result;
   result.per_label.resize(labels);
   std::vector<std::vector<SharpPlace>> places(labels);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (surface.facets.size() > kWorthThreads)
   for (std::size_t n = 0; n <= labels; ++n) {
     if (n == 0) {
       result.outer = Sheet(outer_facets(surface, points)).figures();

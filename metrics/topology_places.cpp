@@ -10,6 +10,7 @@
 
 #include "metrics/disjoint_sets.hpp"
 #include "metrics/mesh_raster.hpp"
+#include "metrics/reduce.hpp"
 #include "metrics/smoothness.hpp"
 #include "metrics/voxel_components.hpp"
 
@@ -461,7 +462,7 @@ std::vector<TopologyPlace> topology_places(const MeshView& view, const Surface& 
   const std::vector<std::optional<RelabelledVoxels>> voxels = voxels_of(view, image, labels);
   const std::vector<VoxelBox> boxes = boxes_of_materials(image);
   std::vector<std::vector<TopologyPlace>> places(labels.size());
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (view.cell_count() > kWorthThreads)
   for (std::size_t n = 0; n < labels.size(); ++n) {
     const DifferingLabel& label = labels[n];
     PlaceFinder finder(view, surface, image, label, label.material ? boxes[*label.material] : VoxelBox{});
