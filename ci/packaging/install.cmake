@@ -20,12 +20,9 @@ install(CODE "set(SOURCE_DIR \"${PROJECT_SOURCE_DIR}\")
 install(SCRIPT ci/packaging/install_headers.cmake)
 
 # The bench looks for its programs beside itself and for its cases in ../share/cbc3d/cases.
-foreach(program cbc3d cbc3d-bench cbc3d-picture cbc3d-mesher-cgal cbc3d-mesher-cgal-parallel cbc3d-mesher-tetgen)
-  if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  endif()
-endforeach()
+get_property(programs GLOBAL PROPERTY CBC3D_INSTALLED_PROGRAMS)
 if(CBC3D_PROGRAMS)
+  install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY cases/manifests/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cbc3d/cases FILES_MATCHING PATTERN "*.json")
 endif()
 
