@@ -57,7 +57,7 @@ class Faults : public testing::Test {
 
   std::vector<std::string> command(const std::vector<std::string>& files, const fs::path& out) const {
     std::vector<std::string> argv{BENCH,    "run", "--case",        "box",    "--manifests",    manifests_,
-                                  "--data", data_, "--timeout",     "2",      "--memory-limit", "0.25",
+                                  "--data", data_, "--timeout",     "8",      "--memory-limit", "0.25",
                                   "--out",  out,   "--no-pictures", "--quiet"};
     for (const std::string& file : files) {
       const std::string name = fs::path(file).stem();
@@ -111,7 +111,7 @@ TEST_F(Faults, OfMeshersAreRowsAndTheRunGoesOn) {
   ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
   const std::vector<std::array<std::string, 3>> expected{
       {"crash", "crashed", "SIGSEGV (Segmentation fault); last line: about to crash"},
-      {"hang", "timeout", "not done after 2 s"},
+      {"hang", "timeout", "not done after 8 s"},
       {"grandchild", "ok", ""},
       {"hog", "out_of_memory", "used more than 0.25 GiB"},
       {"garbage", "failed", "meshed, but the evaluation did not end: "},
