@@ -24,7 +24,7 @@
 namespace cbc3d {
 
 struct TopologyOptions {
-  bool enabled = false;       ///< --topology-checks
+  bool enabled = false;       ///< the checks are made at all
   bool one_face_rule = true;  ///< kept on the way (RefineOptions::one_face_rule)
   int image_passes = 0;       ///< the first passes, this many, in which the image at a non-manifold vertex
                               ///< decides: its whole star becomes what the voxel there is
