@@ -66,7 +66,8 @@ std::optional<double> elements_per_second(const Figures& figures) {
 
 std::optional<double> time_ratio(const Figures& figures) {
   const auto cpu = figures[metric_id("time_s.cpu")], unit = figures[metric_id("time_s.reference_cpu")];
-  return cpu && unit && *unit > 0 ? std::optional(*cpu / *unit) : std::nullopt;
+  const double system = figures[metric_id("time_s.system_cpu")].value_or(0);
+  return cpu && unit && *unit > 0 ? std::optional((*cpu - system) / *unit) : std::nullopt;
 }
 
 void Figures::derive() {

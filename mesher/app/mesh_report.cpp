@@ -171,6 +171,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"seconds",
            {{"total", report.seconds},
             {"cpu", report.cpu_seconds},
+            {"system_cpu", report.system_cpu_seconds},
             {"reading", run.reading_seconds},
             {"writing", run.writing_seconds},
             {"stages", stages}}},

@@ -27,14 +27,19 @@ rusage self_usage() {
   ::getrusage(RUSAGE_SELF, &usage);
   return usage;
 }
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 }  // namespace
 
 double process_cpu_seconds() {
   const rusage usage = self_usage();
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
+
+double process_system_cpu_seconds() {
+  return seconds_of(self_usage().ru_stime);
 }
 
 std::int64_t process_peak_rss_bytes() {

@@ -38,6 +38,10 @@ class Stopwatch {
 /// CPU seconds (user + system, all threads) of this process so far.
 double process_cpu_seconds();
 
+/// Those of them that the system spent for this process. Most are the first touches of memory pages, whose
+/// price is the machine's: between two machines it differs by more than the price of computing does.
+double process_system_cpu_seconds();
+
 /// Peak resident set size of this process so far, bytes.
 std::int64_t process_peak_rss_bytes();
 

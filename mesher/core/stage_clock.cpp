@@ -29,12 +29,13 @@ StageClock::Running StageClock::begin(const std::string& name) {
   if (known == seconds_.end()) {
     seconds_.emplace_back(name, 0.0);
   }
-  return {stage, process_cpu_seconds()};
+  return {stage, process_cpu_seconds(), process_system_cpu_seconds()};
 }
 
 void StageClock::end(const Running& running) {
   seconds_[running.stage].second += running.watch.seconds();
   cpu_seconds_ += process_cpu_seconds() - running.cpu_before;
+  system_cpu_seconds_ += process_system_cpu_seconds() - running.system_cpu_before;
 }
 
 }  // namespace cbc3d

@@ -35,11 +35,13 @@ class StageClock {
   [[nodiscard]] double total_seconds() const;
   /// CPU seconds (user and system, all threads) of this process in all stages together.
   [[nodiscard]] double cpu_seconds() const { return cpu_seconds_; }
+  /// Those of them that the system spent.
+  [[nodiscard]] double system_cpu_seconds() const { return system_cpu_seconds_; }
 
  private:
   struct Running {
     std::size_t stage;
-    double cpu_before;
+    double cpu_before, system_cpu_before;
     Stopwatch watch = {};
   };
   struct Timer {
@@ -52,7 +54,7 @@ class StageClock {
   void end(const Running& running);
 
   StageSeconds seconds_;
-  double cpu_seconds_ = 0;
+  double cpu_seconds_ = 0, system_cpu_seconds_ = 0;
   std::optional<Running> running_;
 };
 

@@ -77,6 +77,8 @@ TEST(StageClock, CpuSecondsAreThoseOfTheStages) {
   });
   EXPECT_GT(clock.cpu_seconds(), 0);
   EXPECT_LE(clock.cpu_seconds(), process_cpu_seconds() - before);
+  EXPECT_GE(clock.system_cpu_seconds(), 0);
+  EXPECT_LE(clock.system_cpu_seconds(), process_system_cpu_seconds());
 }
 
 }  // namespace

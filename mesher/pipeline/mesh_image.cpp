@@ -30,6 +30,7 @@ class StageLog {
     report_.stage_seconds = clock_.seconds();
     report_.seconds = clock_.total_seconds();
     report_.cpu_seconds = clock_.cpu_seconds();
+    report_.system_cpu_seconds = clock_.system_cpu_seconds();
   }
 
   void dump(const std::string& file, const MaterialMesh& mesh) const {

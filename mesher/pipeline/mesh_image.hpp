@@ -48,7 +48,8 @@ struct MeshImageReport {
   double finest_spacing_mm = 0;
   StageSeconds stage_seconds;  ///< files not included; where all was done twice, the sums of both passes
   double seconds = 0;
-  double cpu_seconds = 0;  ///< user and system, all threads, of the same stages
+  double cpu_seconds = 0;         ///< user and system, all threads, of the same stages
+  double system_cpu_seconds = 0;  ///< the system's share of them
   CleanReport clean;
   RefineResult refine;  ///< without its mesh
   TopologyReport topology;

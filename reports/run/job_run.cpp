@@ -110,6 +110,7 @@ void set_costs(Json& result, const ChildResult& child, const nlohmann::json& rep
       whole_process ? nlohmann::json(child.wall_s) : seconds.value("total", nlohmann::json());
   result["time_s"]["cpu"] =
       whole_process ? nlohmann::json(child.cpu_s) : seconds.value("cpu", nlohmann::json());
+  result["time_s"]["system_cpu"] = seconds.value("system_cpu", nlohmann::json());
   result["time_s"]["stages"] = object_at(seconds, "stages");
   result["time_s"]["includes_files"] = whole_process;
   result["time_s"]["process_wall"] = child.wall_s;
