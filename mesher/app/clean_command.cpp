@@ -9,6 +9,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 struct CleanCommand {
   std::string image;
   std::string out;
+  std::string preset = preset_names().front();
   OptionSettings settings;
   CommonOptions common;
 };
@@ -25,7 +27,7 @@ void run(const CleanCommand& command) {
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.image, 0);
   LabelImage image = read_label_image(command.image);
-  MeshImageOptions options;
+  MeshImageOptions options = preset_options(command.preset, image.frame, false);
   apply_settings(command.settings, options);
   progress.step("cleaning", 0.3);
   const CleanReport report = clean_image(image, options.clean, false);
@@ -55,7 +57,11 @@ void add_clean_command(CLI::App& app, int& exit_code) {
   CLI::App* clean = app.add_subcommand("clean", "the image pre-processing alone");
   clean->add_option("image", command->image, "label image: NIfTI, NRRD, MHA/MHD or INRIMAGE")->required();
   clean->add_option("--out", command->out, "label image: .nii, .nii.gz, .nrrd or .mha")->required();
-  add_option_flags(*clean, OptionGroup::cleaning, {DefaultColumn{}}, command->settings);
+  clean
+      ->add_option("--preset", command->preset,
+                   "whose pre-processing: quality or paper [" + command->preset + "]")
+      ->check(CLI::IsMember(preset_names()));
+  add_option_flags(*clean, OptionGroup::cleaning, preset_columns(), command->settings);
   add_report_option(*clean, command->common, "JSON file with what was changed");
   complete_command(*clean, command->common, exit_code, [command] { run(*command); });
 }

@@ -105,7 +105,7 @@ nlohmann::json deformation_json(const DeformReport& deform) {
           {"iterations", iterations}};
 }
 
-nlohmann::json improvement_json(const ImproveReport& improve, bool was_stricter) {
+nlohmann::json improvement_json(const ImproveReport& improve) {
   nlohmann::json parts = nlohmann::json::object();
   for (const auto& [name, seconds] : improve.part_seconds) {
     parts[name] = seconds;
@@ -119,7 +119,6 @@ nlohmann::json improvement_json(const ImproveReport& improve, bool was_stricter)
           {"uncovered_samples", improve.uncovered_samples},
           {"self_intersections_left", improve.self_intersections_left},
           {"surface_defects_left", improve.surface_defects_left},
-          {"done_again_stricter", was_stricter},
           {"seconds", parts}};
 }
 
@@ -165,8 +164,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"materials", fidelity_json(report)},
           {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
           {"deformation", deformation_json(report.deform)},
-          {"improvement", run.options.improve.enabled ? improvement_json(report.improve, report.was_stricter)
-                                                      : nlohmann::json()},
+          {"improvement", run.options.improve.enabled ? improvement_json(report.improve) : nlohmann::json()},
           {"warnings", report.warnings},
           {"seconds",
            {{"total", report.seconds},

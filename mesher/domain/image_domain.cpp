@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "mesher/domain/tolerances.hpp"
@@ -59,6 +60,83 @@ bool is_thin_at(const LabelImage& image, const Index3& at) {
   return true;
 }
 
+using Neighbourhood = std::array<bool, 27>;  // of a voxel, itself at 13: which are of its material
+
+constexpr std::size_t kCentre = 13;
+
+Neighbourhood own_around(const LabelImage& image, const Index3& at) {
+  const MaterialId own = image.at_or_background(at[0], at[1], at[2]);
+  Neighbourhood around{};
+  for (std::size_t n = 0; n < around.size(); ++n) {
+    const int s = static_cast<int>(n);
+    around[n] = image.at_or_background(at[0] + s % 3 - 1, at[1] + s / 3 % 3 - 1, at[2] + s / 9 - 1) == own;
+  }
+  return around;
+}
+
+/// The components of those neighbours that are (not) of the voxel's material: own ones across faces, within
+/// the 18 that share a face or an edge with it, and only such as touch it by a face; others across corners
+/// too.
+int count_pieces(const Neighbourhood& around, bool own) {
+  const auto coordinates = [](std::size_t n) {
+    const int s = static_cast<int>(n);
+    return Index3{s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1};
+  };
+  const auto length = [](const Index3& d) { return std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]); };
+  std::array<bool, 27> seen{};
+  int pieces = 0;
+  for (std::size_t start = 0; start < 27; ++start) {
+    const auto usable = [&](std::size_t n) {
+      return n != kCentre && !seen[n] && around[n] == own && (!own || length(coordinates(n)) < 3);
+    };
+    if (!usable(start) || (own && length(coordinates(start)) != 1)) {
+      continue;
+    }
+    ++pieces;
+    std::array<std::size_t, 27> stack{start};
+    seen[start] = true;
+    for (std::size_t count = 1; count > 0;) {
+      const Index3 a = coordinates(stack[--count]);
+      for (std::size_t n = 0; n < 27; ++n) {
+        const Index3 b = coordinates(n);
+        const Index3 d = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        const bool joined =
+            own ? length(d) == 1 : std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}) == 1;
+        if (joined && usable(n)) {
+          seen[n] = true;
+          stack[count++] = n;
+        }
+      }
+    }
+  }
+  return pieces;
+}
+
+Index3 neighbour_across(Index3 at, std::size_t side) {
+  at[side / 2] += side % 2 == 0 ? 1 : -1;
+  return at;
+}
+
+/// True when a voxel is a bump on a thick part, and no topology hangs on it (Bertrand and Malandain, A new
+/// characterization of three-dimensional simple points, Pattern Recognition Letters 15, 1994): noise, not
+/// shape.
+bool is_bump_at(const LabelImage& image, const Index3& at) {
+  const Neighbourhood around = own_around(image, at);
+  for (std::size_t side = 0; side < 6; ++side) {
+    const Index3 next = neighbour_across(at, side);
+    if (image.at_or_background(next[0], next[1], next[2]) == image.at_or_background(at[0], at[1], at[2]) &&
+        is_thin_at(image, next)) {
+      return false;  // several such voxels may be a bridge, of which each alone could go
+    }
+  }
+  return count_pieces(around, true) == 1 && count_pieces(around, false) == 1;
+}
+
+/// True when a voxel is in no 2x2x2 block of its own material, and no bump.
+bool is_fragile_at(const LabelImage& image, const Index3& at) {
+  return is_thin_at(image, at) && !is_bump_at(image, at);
+}
+
 }  // namespace
 
 ImageDomain::ImageDomain(const LabelImage& image, const ImageDomainOptions& options)
@@ -103,17 +181,21 @@ bool ImageDomain::is_thin(const BoundarySample& sample) const {
     at[static_cast<std::size_t>(axis)] =
         static_cast<int>(std::lround(sample.centre()[axis] / image_.frame.spacing_mm[axis]));
   }
-  if (is_thin_at(image_, at)) {
+  if (is_fragile_at(image_, at)) {
     return true;
   }
   for (std::size_t side = 0; side < 6 && sample.other == kBackground; ++side) {
     Index3 next = at;
     next[side / 2] += side % 2 == 0 ? 1 : -1;
-    if (image_.at_or_background(next[0], next[1], next[2]) == sample.other && is_thin_at(image_, next)) {
+    if (image_.at_or_background(next[0], next[1], next[2]) == sample.other && is_fragile_at(image_, next)) {
       return true;
     }
   }
   return false;
+}
+
+bool ImageDomain::is_thin_voxel(const Index3& at) const {
+  return is_fragile_at(image_, at);
 }
 
 std::optional<Vec3> ImageDomain::nearest_boundary(const Vec3& x, MaterialId material) const {
@@ -124,13 +206,16 @@ bool ImageDomain::is_near_boundary(const Vec3& x, MaterialId material) const {
   return has_boundary_voxel_near(image_, x, material, tolerances::kFarLimit * scale_mm());
 }
 
-double ImageDomain::clamped(double value, const std::array<signed char, 64>& side, int at) const {
+double ImageDomain::clamped(double value, const std::array<signed char, 64>& side, int at,
+                            const Index3& voxel) const {
   const double own = side[static_cast<std::size_t>(at)];
   if (own == 0 || own * value >= options_.hold_thin) {
     return value;
   }
-  const double hold = is_thin_on(side, at) ? options_.hold_thin : options_.hold;
-  return own * std::max(own * value, hold);
+  if (!is_thin_on(side, at)) {
+    return own * std::max(own * value, options_.hold);
+  }
+  return is_bump_at(image_, voxel) ? value : own * std::max(own * value, options_.hold_thin);
 }
 
 bool ImageDomain::corners(const Index3& low, MaterialId a, MaterialId b,
@@ -173,7 +258,9 @@ bool ImageDomain::corners(const Index3& low, MaterialId a, MaterialId b,
     const std::size_t from = 4 * (c >> 2) + (c & 3);
     const double value = (along_y[from] + 2 * along_y[from + 4] + along_y[from + 8]) / 64.0;
     const int at = 21 + static_cast<int>((c & 1) + 4 * ((c >> 1) & 1) + 16 * (c >> 2));
-    corner[c] = clamped(value, side, at);
+    corner[c] = clamped(value, side, at,
+                        {low[0] + static_cast<int>(c & 1), low[1] + static_cast<int>(c >> 1 & 1),
+                         low[2] + static_cast<int>(c >> 2)});
   }
   return true;
 }

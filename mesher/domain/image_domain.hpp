@@ -40,6 +40,8 @@ class ImageDomain : public Domain {
   /// A voxel is thin when it is in no 2x2x2 block of its own material. A sample is in a thin part when its
   /// voxel is thin, or a voxel of background across its boundary.
   [[nodiscard]] bool is_thin(const BoundarySample& sample) const override;
+  /// The same of one voxel, which may be of background.
+  [[nodiscard]] bool is_thin_voxel(const Index3& at) const;
 
   /// The material whose smoothed share is largest at x, held at the voxels' centres as the field is.
   [[nodiscard]] MaterialId material_at(const Vec3& x) const override;
@@ -56,7 +58,8 @@ class ImageDomain : public Domain {
   /// The smoothed and clamped field at the eight voxel centres from `low` on; false where a or b is in none
   /// of the 4x4x4 voxels around them: what the field says there of a third material means nothing.
   bool corners(const Index3& low, MaterialId a, MaterialId b, std::array<double, 8>& corner) const;
-  [[nodiscard]] double clamped(double value, const std::array<signed char, 64>& side, int at) const;
+  [[nodiscard]] double clamped(double value, const std::array<signed char, 64>& side, int at,
+                               const Index3& voxel) const;
   /// By way of the nearest voxels of a and of b.
   [[nodiscard]] BoundaryDistance far_boundary_distance(const Vec3& x, MaterialId a, MaterialId b) const;
 

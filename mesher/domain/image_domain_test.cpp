@@ -188,5 +188,39 @@ TEST(ImageDomain, ShiftsMoveTheSurfaceOutward) {
   EXPECT_GT((surface - testing::centre_of(image)).norm(), 10 + before + 0.15);
 }
 
+/// A block of 4 voxels a side in a corner of the room, with one voxel on top and a wire of three beside it.
+LabelImage block_with_bump_and_wire() {
+  return testing::make_image({16, 16, 16}, {1, 1, 1}, 1, [](const Vec3& p) {
+    const bool in_block = p.min_coeff() >= 4 && p.x < 8 && p.y < 8 && p.z < 8;
+    const bool is_bump = p == Vec3{5, 5, 8};
+    const bool in_wire = p.y == 6 && p.z == 6 && p.x >= 8 && p.x < 11;
+    return in_block || is_bump || in_wire ? 1 : 0;
+  });
+}
+
+TEST(ImageDomain, ABumpOfOneVoxelIsNoThinPartAndAWireIs) {
+  const LabelImage image = block_with_bump_and_wire();
+  const ImageDomain domain(image);
+  EXPECT_FALSE(domain.is_thin_voxel({5, 5, 8}));
+  EXPECT_FALSE(domain.is_thin_voxel({5, 5, 7}));
+  for (int i = 8; i < 11; ++i) {
+    EXPECT_TRUE(domain.is_thin_voxel({i, 6, 6})) << i;
+    EXPECT_GT(domain.boundary_distance({static_cast<double>(i), 6, 6}, 1, kBackground).distance_mm, 0) << i;
+  }
+  // The smooth boundary passes below the bump's centre: it is noise.
+  EXPECT_LT(domain.boundary_distance({5, 5, 8}, 1, kBackground).distance_mm, 0);
+}
+
+TEST(ImageDomain, ABridgeOfTwoVoxelsSideBySideIsThin) {
+  const LabelImage image = testing::make_image({20, 12, 12}, {1, 1, 1}, 1, [](const Vec3& p) {
+    const bool in_blocks = p.y > 2 && p.y < 9 && p.z > 2 && p.z < 9 && p.x > 2 && p.x < 16 && p.x != 9;
+    const bool in_bridge = p.x == 9 && p.z == 5 && (p.y == 5 || p.y == 6);
+    return in_blocks || in_bridge ? 1 : 0;
+  });
+  const ImageDomain domain(image);
+  EXPECT_TRUE(domain.is_thin_voxel({9, 5, 5}));
+  EXPECT_TRUE(domain.is_thin_voxel({9, 6, 5}));
+}
+
 }  // namespace
 }  // namespace cbc3d

@@ -49,7 +49,7 @@ class Improver {
         domain_(domain),
         options_(options),
         on_round_(on_round),
-        goal_(sine_squared_of_deg(options.min_dihedral_deg + kMarginDeg)),
+        goal_(quality_of_deg(options.min_dihedral_deg + kMarginDeg)),
         mm_(domain, options),
         relax_{.surface_weight = options.surface_weight,
                .max_step = 0.5,
@@ -93,7 +93,14 @@ class Improver {
   static constexpr double kLargestLack = 0.004;  // share of a volume; below it no correction is needed
   static constexpr double kLargestCells =
       8;  // largest volume relabelled at one place, in cells of the domain
-  static constexpr double kSmallVolumes = 60;  // volumes below this many of those are not waited for
+  static constexpr double kSmallVolumes = 60;      // volumes below this many of those are not waited for
+  static constexpr double kSmoothnessShare = 0.1;  // of a material's thickness
+  static constexpr int kTargetRounds = 24;         // of decimation to a number of tets, at most
+  static constexpr double kCloseEnough = 1.02;     // the last steps change the number by as much
+  static constexpr double kSlowShare = 0.9;        // a round that leaves more asks for greater lengths
+  static constexpr double kLeastGrowth = 1.05, kMostGrowth = 1.3;  // of them, at once
+  static constexpr double kLargestDeviation =
+      0.8;                                     // scales; beyond, vertices are no more where their label is
   static constexpr double kFewerShare = 0.97;  // a round of decimation that leaves more is the last
   static constexpr int kLastRepairs = 8;
   static constexpr int kFarRepair = 4;  // from this round on a repair has all its leeway
@@ -114,12 +121,25 @@ class Improver {
     }
   }
 
+  /// Smoothing may wear off a share of a material's thickness alone: three times its volume over its area,
+  /// which is the radius of a ball and one and a half times the thickness of a plate.
+  void find_smoothness_caps() {
+    const Extent extent = extent_of_materials(mesh_, domain_.labels().size());
+    caps_.assign(extent.area_mm2.size(), mm_.smoothness_cap);
+    for (std::size_t m = 1; m < caps_.size(); ++m) {
+      if (extent.area_mm2[m] > 0) {
+        caps_[m] = std::min(caps_[m], kSmoothnessShare * 3 * extent.volume_mm3[m] / extent.area_mm2[m]);
+      }
+    }
+  }
+
   /// Vertices move to the boundary, tets into shape.
   void fit() {
+    find_smoothness_caps();
     in_patches("fitting", [this](Patch& patch) {
       relax_vertices(patch, relax_);
       relax_vertices(patch, relax_);
-      remove_edges(patch, sine_squared_of_deg(kGoodDeg));
+      remove_edges(patch, quality_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
       relax_vertices(patch, relax_);
       project_far_vertices(patch, relax_);
@@ -133,8 +153,10 @@ class Improver {
     }
   }
 
+  void decimate() { options_.target_tets > 0 ? decimate_to_target() : decimate_for_distance(); }
+
   /// Rounds of decimation while they reduce the number of tets enough.
-  void decimate() {
+  void decimate_for_distance() {
     double before = std::numeric_limits<double>::infinity();
     for (int i = 0; i < options_.decimation_rounds; ++i) {
       const auto tets = static_cast<double>(mesh_.tets.size());
@@ -146,20 +168,48 @@ class Improver {
     }
   }
 
+  /// Rounds of decimation until the tets are few enough. Where the lengths in force let a round remove few,
+  /// they grow, by what tets of even size would need.
+  void decimate_to_target() {
+    const auto target = static_cast<double>(options_.target_tets);
+    for (int i = 0; i < kTargetRounds; ++i) {
+      const auto before = static_cast<double>(mesh_.tets.size());
+      if (before <= kCloseEnough * target) {
+        return;
+      }
+      least_share_ = target / before;
+      decimate_once();
+      const auto after = static_cast<double>(mesh_.tets.size());
+      if (after > kSlowShare * before) {
+        grow_lengths(std::clamp(std::sqrt(after / target), kLeastGrowth, kMostGrowth));
+      }
+    }
+    least_share_ = 0;
+  }
+
+  void grow_lengths(double factor) {
+    mm_.reach *= factor;
+    mm_.deviation = std::max(mm_.deviation, std::min(factor * mm_.deviation, kLargestDeviation * mm_.scale));
+    cover_.reach_mm = mm_.reach;
+  }
+
   void decimate_once() {
     const bool graded = options_.gradation >= 0;
-    const CollapseOptions collapse{.threshold_sine_squared = sine_squared_of_deg(collapse_deg()),
-                                   .longest_growth = kLongestGrowth,
-                                   .longest_mm = &longest_mm_,
-                                   .graded = graded,
-                                   .optimize_position = true,
-                                   .volume_share = kVolumeShare};
+    const CollapseOptions all_collapses{.threshold_quality = quality_of_deg(collapse_deg()),
+                                        .longest_growth = kLongestGrowth,
+                                        .longest_mm = &longest_mm_,
+                                        .graded = graded,
+                                        .optimize_position = true,
+                                        .volume_share = kVolumeShare};
     if (graded) {
-      sizes_ = graded_sizes(mesh_, options_.gradation);
+      sizes_ = graded_sizes(mesh_, options_.gradation, tolerances::kLargestInner * mm_.reach);
     }
     in_patches("decimation", [&](Patch& patch) {
+      CollapseOptions collapse = all_collapses;
+      collapse.least_tets =
+          static_cast<std::size_t>(least_share_ * static_cast<double>(patch.mesh.tet_slots()));
       collapse_edges(patch, collapse);
-      remove_edges(patch, sine_squared_of_deg(kGoodDeg));
+      remove_edges(patch, quality_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
       relax_vertices(patch, relax_);
       relax_vertices(patch, relax_);
@@ -167,7 +217,7 @@ class Improver {
       collapse_edges(patch, collapse);
       relax_vertices(patch, relax_);
       project_far_vertices(patch, relax_);
-      remove_edges(patch, sine_squared_of_deg(kGoodDeg));
+      remove_edges(patch, quality_of_deg(kGoodDeg));
       flatten_interfaces(patch, goal_);
       optimize_worst_angles(patch, goal_);
     });
@@ -260,8 +310,7 @@ class Improver {
       }
       optimize_worst_angles(patch, goal_);
       remove_edges(patch, goal_);
-      collapse_edges(patch,
-                     {.threshold_sine_squared = goal_, .longest_growth = kLongestGrowth, .only_bad = true});
+      collapse_edges(patch, {.threshold_quality = goal_, .longest_growth = kLongestGrowth, .only_bad = true});
       if (round > 0 && turn == 1) {
         split_edges(patch, goal_);
       }
@@ -285,7 +334,7 @@ class Improver {
     options.wanted_mm3 = domain_.volumes_mm3();
     options.label_of = domain_.label_of();
     options.step_mm = tolerances::kVolumeStep * mm_.scale;
-    options.goal_sine_squared = goal_;
+    options.goal_quality = goal_;
     correct_volumes(mesh_, cover, options);
   }
 
@@ -304,11 +353,9 @@ class Improver {
 
   void separate_and_relabel_in_turns(SurfaceCover& cover) {
     const SeparationOptions separation{
-        .step_mm = tolerances::kSeparationStep * mm_.scale, .goal_sine_squared = goal_, .rounds = 12};
-    const RelabelOptions relabel{.step_mm = cover_.reach_mm,
-                                 .largest_mm3 = largest_change_mm3(),
-                                 .goal_sine_squared = goal_,
-                                 .rounds = 6};
+        .step_mm = tolerances::kSeparationStep * mm_.scale, .goal_quality = goal_, .rounds = 12};
+    const RelabelOptions relabel{
+        .step_mm = cover_.reach_mm, .largest_mm3 = largest_change_mm3(), .goal_quality = goal_, .rounds = 6};
     for (int turn = 0; turn < 3; ++turn) {
       report_.self_intersections_left = separate_self_intersections(mesh_, cover, separation);
       if (!options_.may_relabel) {
@@ -326,16 +373,20 @@ class Improver {
   }
 
   [[nodiscard]] bool has_surface_defects() const {
-    return may_have_defects_ || has_far_samples(mesh_, cover_, tolerances::kFarLimit * mm_.scale) ||
+    return may_have_defects_ || has_far_samples(mesh_, cover_, far_limit_mm()) ||
            count_self_intersections(mesh_, domain_.label_of()) > 0;
+  }
+
+  [[nodiscard]] double far_limit_mm() const {
+    return tolerances::kFarLimit * std::max(mm_.scale, mm_.reach / tolerances::kReach);
   }
 
   void remove_defects() {
     DefectRemovalOptions options;
-    options.limit_mm = tolerances::kFarLimit * mm_.scale;
+    options.limit_mm = far_limit_mm();
     options.step_mm = mm_.scale;
     options.largest_mm3 = largest_change_mm3();
-    options.goal_sine_squared = goal_;
+    options.goal_quality = goal_;
     const DefectRemovalReport report = remove_surface_defects(mesh_, domain_, options);
     report_.tets_relabelled += report.tets_relabelled;
     report_.self_intersections_left = report.self_intersections_left;
@@ -362,7 +413,8 @@ class Improver {
             .samples = cover_.samples,
             .reach_mm = cover_.reach_mm,
             .own_reach_mm = cover_.own_reach_mm,
-            .longest_mm = sizes_};
+            .longest_mm = sizes_,
+            .smoothness_cap_mm = caps_};
   }
 
   template <typename Improve>
@@ -385,7 +437,9 @@ class Improver {
   std::vector<double> longest_mm_;  // edges of each material
   VolumeOffsets offsets_;
   SampleCover cover_{};
+  std::vector<double> caps_;   // of the smoothness, by material
   std::vector<double> sizes_;  // in a round of decimation with a gradation
+  double least_share_ = 0;     // of its tets that a patch keeps in a round of decimation
   int round_ = 0;
   bool may_have_defects_ = false;  // the last relabelling has left some
   StageClock clock_;               // of the parts

@@ -26,17 +26,20 @@ struct ImproveOptions {
   double surface_weight =
       1000;  ///< weight of the distances from the boundary, in scales, against the tets' shape
   /// In [0,1]: the share of the surface weight that goes to smooth surfaces, see RelaxOptions; 0: none.
-  double smoothness = 0;
+  double smoothness = 0.7;
   /// The smoothness moves no vertex farther from the boundary; 0: kSmoothnessCap scales, the deviation at
   /// most.
   double smoothness_cap_mm = 0;
   std::map<Label, double> size_mm;  ///< the decimation makes no edge of these labels longer
   /// No inner vertex vanishes where that leaves edges longer than those of the nearest interface and about
   /// this times the distance from there (graded_sizes). Interfaces are decimated as ever. Below 0: no limit.
-  double gradation = -1;
+  double gradation = 1;
   /// Collapses may leave angles below the goal by this, though not below half of it, for later steps to
   /// repair.
   double collapse_leeway_deg = 7.5;
+  /// Above 0: the decimation ends at about this many tets. Reach, deviation and inner edges grow from round
+  /// to round until there are no more, and it ends before it is done when there are.
+  std::size_t target_tets = 0;
   int decimation_rounds = 6;  ///< at most; 0: as many tets as before
   int repair_rounds = 12;     ///< at most; they end when the goal is reached
   int untangle_rounds = 3;    ///< at most, before all else, while a tet is flat or inside out

@@ -147,7 +147,7 @@ TEST(ImproveMesh, SmoothnessAndGradationAreTheSameAtAnyThreadCount) {
 
 /// The largest ratio of an inner edge to what the gradation allows it.
 double worst_growth(const MaterialMesh& mesh, double gradation) {
-  const std::vector<double> sizes = graded_sizes(mesh, gradation);
+  const std::vector<double> sizes = graded_sizes(mesh, gradation, 1e9);
   double worst = 0;
   for_each_edge(mesh, [&](VertexId a, VertexId b, bool inner) {
     if (inner) {

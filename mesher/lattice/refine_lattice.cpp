@@ -126,6 +126,7 @@ class Refiner {
     measure_fidelity();
     mark_uncovered();
     mark_far_vertices();
+    mark_lost_thin_voxels();
     const std::vector<MaterialId>& materials = result_.mesh.materials;
 #pragma omp parallel for schedule(static)
     for (std::size_t t = 0; t < judged_.size(); ++t) {
@@ -246,6 +247,32 @@ class Refiner {
     return uncovered;
   }
 
+  /// Where a part is one voxel thick, a voxel that is lost to another material is a tunnel, a cut or a
+  /// cavity: the lattice is refined until each of these voxels' centres is in a tet of its own material.
+  void mark_lost_thin_voxels() {
+    if (!options_.keep_thin_parts) {
+      return;
+    }
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      if (is_changed(t) && foreign_[t] != 0 && holds_lost_thin_voxel(t)) {
+        mark_tet(t);
+      }
+    }
+  }
+
+  [[nodiscard]] bool holds_lost_thin_voxel(std::size_t t) const {
+    const MaterialId own = result_.mesh.materials[t];
+    bool lost = false;
+    raster_.for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
+      for (int i = i_begin; i < i_end && !lost; ++i) {
+        lost = image_.at(i, j, k) != own && domain_.is_thin_voxel({i, j, k});
+      }
+      return lost;
+    });
+    return lost;
+  }
+
   void mark_tet(std::size_t t) {
     set_flag(marked_[result_.mesh.tets.parent[t]]);
   }
@@ -309,11 +336,14 @@ class Refiner {
 
   /// Tets of a label that is to have smaller elements.
   void mark_oversized() {
-    if (options_.size_mm.empty()) {
+    if (options_.size_mm.empty() && options_.coarsest_spacing_mm <= 0) {
       return;
     }
-    const std::vector<double> size_mm =
-        values_of_materials(image_.labels, options_.size_mm, std::numeric_limits<double>::infinity());
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::vector<double> size_mm =
+        values_of_materials(image_.labels, options_.size_mm,
+                            options_.coarsest_spacing_mm > 0 ? options_.coarsest_spacing_mm : kInfinity);
+    size_mm[kBackground] = options_.size_mm.contains(0) ? size_mm[kBackground] : kInfinity;
     const std::vector<MaterialId>& materials = result_.mesh.materials;
 #pragma omp parallel for schedule(static, 1024)
     for (std::size_t t = 0; t < materials.size(); ++t) {

@@ -44,5 +44,42 @@ TEST(RefineLattice, SmoothLabelsAreThoseOfTheBoundaryAtTheCentroids) {
   }
 }
 
+/// A closed box one voxel thick: with a lattice as coarse as the distance lets it be, it is full of holes.
+TEST(RefineLattice, ThinPartsAreKeptVoxelByVoxel) {
+  const LabelImage image = testing::make_image({20, 18, 16}, {1, 1, 1}, 1, [](const Vec3& p) {
+    const bool inside = p.x > 2 && p.x < 16 && p.y > 2 && p.y < 14 && p.z > 2 && p.z < 12;
+    const bool hollow = p.x > 3 && p.x < 15 && p.y > 3 && p.y < 13 && p.z > 3 && p.z < 11;
+    return inside && !hollow ? 1 : 0;
+  });
+  const ImageDomain domain(image);
+  for (const bool keep : {false, true}) {
+    Lattice lattice = build_bcc_lattice(image, {10, 0.25});
+    RefineOptions options;
+    options.fidelity = 0.01;
+    options.smooth_labels = options.each_interface = true;
+    options.one_face_rule = false;
+    options.keep_thin_parts = keep;
+    options.max_distance_mm = image.frame.voxel_diagonal_mm();
+    options.finest_spacing_mm = 1;
+    const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
+    EXPECT_EQ(result.fidelity[0].common_voxels == result.fidelity[0].image_voxels, keep);
+  }
+}
+
+TEST(RefineLattice, NoTetOfALabelIsCoarserThanAsked) {
+  const LabelImage image = touching_balls();
+  const ImageDomain domain(image);
+  Lattice lattice = build_bcc_lattice(image, {8, 0.5});
+  RefineOptions options;
+  options.fidelity = 0.01;
+  options.coarsest_spacing_mm = 2;
+  const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
+  for (std::size_t t = 0; t < result.mesh.tets.size(); ++t) {
+    if (result.mesh.materials[t] != kBackground) {
+      ASSERT_LE(lattice.frame.spacing_mm(lattice.reds[result.mesh.tets.parent[t]].level), 2);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cbc3d

@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <map>
 
+#include "mesher/core/error.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/domain/tolerances.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/red_green.hpp"
 
@@ -163,6 +165,47 @@ void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
   }
 }
 
+/// Tets that are not background.
+std::size_t labelled_tets(const CandidateMesh& mesh) {
+  return mesh.materials.size() -
+         static_cast<std::size_t>(std::count(mesh.materials.begin(), mesh.materials.end(), kBackground));
+}
+
+/// The lengths of refinement and improvement, all by one factor.
+void scale_lengths(double factor, RefineOptions& refine, ImproveOptions& improve) {
+  refine.max_distance_mm *= factor;
+  improve.reach_mm = refine.max_distance_mm;
+  improve.deviation_diagonals *= factor;
+  if (factor < 1) {
+    refine.coarsest_spacing_mm = tolerances::kLargestInner * refine.max_distance_mm;
+  }
+}
+
+/// Edges of a decimated surface are this many times as long as the reach: measured on organs, vessels and
+/// bones.
+constexpr double kEdgesPerReach = 1.7;
+
+/// The refinement, and again with smaller lengths while the lattice has too few tets for the decimation to
+/// choose from, where a number of elements is asked for.
+RefineResult refine_for(Lattice& lattice, const ImageDomain& domain, const MeshImageOptions& options,
+                        RefineOptions& refine, ImproveOptions& improve,
+                        const std::function<void(int, std::size_t)>& on_round) {
+  constexpr double kTetsPerElement = 5.5;  // a lattice mesh has about five times the tets of the finished one
+  constexpr double kLeastShrinking = 0.8, kMostShrinking = 0.5;
+  constexpr int kTurns = 8;
+  RefineResult result = refine_lattice(lattice, domain, refine, on_round);
+  for (int turn = 0; options.elements > 0 && turn < kTurns; ++turn) {
+    const double share = static_cast<double>(labelled_tets(result.mesh)) /
+                         (kTetsPerElement * static_cast<double>(options.elements));
+    if (share >= 1) {
+      break;
+    }
+    scale_lengths(std::clamp(std::sqrt(share), kMostShrinking, kLeastShrinking), refine, improve);
+    result = refine_lattice(lattice, domain, refine, on_round);
+  }
+  return result;
+}
+
 /// From the clean image to the mesh in local mm.
 MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions& options, StageLog& log,
                               const Progress& progress, MeshImageReport& report) {
@@ -171,9 +214,14 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
       "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
   if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
 
-  const RefineOptions refine = refine_options(image, options);
+  RefineOptions refine = refine_options(image, options);
+  ImproveOptions improve = options.improve;
+  improve.target_tets = options.elements;
+  if (options.edge_length_mm > 0 && improve.enabled) {
+    scale_lengths(options.edge_length_mm / (kEdgesPerReach * refine.max_distance_mm), refine, improve);
+  }
   report.refine = log.run("adaptive_refinement", 0.1, [&] {
-    return refine_lattice(lattice, domain, refine, [&](int round, std::size_t tets) {
+    return refine_for(lattice, domain, options, refine, improve, [&](int round, std::size_t tets) {
       progress.step(
           "adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
           std::min(0.5, 0.1 + 0.03 * round));
@@ -222,7 +270,7 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
   }
   if (options.improve.enabled && !options.mixed) {
     report.improve = log.run("improvement", 0.5, [&] {
-      return improve_mesh(mesh, domain, options.improve, [&](int round) {
+      return improve_mesh(mesh, domain, improve, [&](int round) {
         progress.step("improvement, round " + std::to_string(round + 1), std::min(0.95, 0.5 + 0.06 * round));
       });
     });
@@ -232,40 +280,36 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
   return mesh;
 }
 
-/// True when the improvement has not reached what it is for.
-bool has_defects(const MeshImageOptions& options, const ImproveReport& improve) {
-  constexpr double kHighestGoalDeg = 25;  // steeper goals are often missed, however fine the mesh
-  const double goal_deg = options.improve.min_dihedral_deg;
-  return improve.self_intersections_left > 0 || improve.surface_defects_left > 0 ||
-         (goal_deg <= kHighestGoalDeg && improve.min_dihedral_after_deg < goal_deg);
-}
-
-MeshImageOptions with_tolerance(MeshImageOptions options, const Tolerance& tolerance) {
-  options.refine.max_distance_mm = tolerance.max_distance_mm;
-  options.improve.reach_mm = tolerance.max_distance_mm;
-  options.improve.deviation_diagonals = tolerance.deviation_diagonals;
-  options.improve.collapse_leeway_deg = tolerance.collapse_leeway_deg;
-  return options;
+/// A wish that nothing would come of is refused.
+void require_dial_has_effect(const MeshImageOptions& options) {
+  const bool improves = options.improve.enabled && !options.mixed;
+  for (const auto& [name, asked] : {std::pair{"elements", options.elements > 0},
+                                    std::pair{"edge_length_mm", options.edge_length_mm > 0}}) {
+    if (asked && !improves) {
+      throw InputError(std::string(name) +
+                           ": only the improvement of preset quality, without mixed elements, keeps to it; "
+                           "leave it out or "
+                           "set lattice_spacing_mm",
+                       name);
+    }
+  }
+  if (options.elements > 0 && options.edge_length_mm > 0) {
+    throw InputError("elements and edge_length_mm: give one of the two", "elements");
+  }
 }
 
 }  // namespace
 
 Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progress& progress,
                 MeshImageReport& report) {
+  require_dial_has_effect(options);
   StageLog log(image, options, progress, report);
 
   report.clean = log.run("image_cleaning", 0.01, [&] { return clean_image(image, options.clean, true); });
   warn_of_cleaning(report.clean, report);
 
-  const std::vector<std::string> warnings = report.warnings;
   const ImageDomain domain(image, options.domain);  // the image does not change any more
-  MaterialMesh mesh = mesh_clean_image(domain, options, log, progress, report);
-  if (options.stricter && options.improve.enabled && !options.mixed && has_defects(options, report.improve)) {
-    mesh = {};
-    report.warnings = warnings;
-    report.was_stricter = true;
-    mesh = mesh_clean_image(domain, with_tolerance(options, *options.stricter), log, progress, report);
-  }
+  const MaterialMesh mesh = mesh_clean_image(domain, options, log, progress, report);
   log.report_seconds();
   return to_physical_mesh(mesh, image);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,14 +18,13 @@
 
 namespace cbc3d {
 
-/// What the decimation may use up.
-struct Tolerance {
-  double max_distance_mm;      ///< RefineOptions::max_distance_mm and ImproveOptions::reach_mm
-  double deviation_diagonals;  ///< ImproveOptions::deviation_diagonals
-  double collapse_leeway_deg;  ///< ImproveOptions::collapse_leeway_deg
-};
-
 struct MeshImageOptions {
+  /// About this many elements (within a tenth, where the image lets it): all lengths of the preset shrink or
+  /// grow together until there are as many; 0: as many as the lengths give. Without the improvement it means
+  /// nothing.
+  std::size_t elements = 0;
+  /// The surfaces' edges are about this long: the same by a length; 0: as long as the distances let them.
+  double edge_length_mm = 0;
   double lattice_spacing_mm =
       0;  ///< edge of the coarsest lattice cubes; 0: default_lattice_spacing_mm of the image
   CleanOptions clean;
@@ -37,16 +35,13 @@ struct MeshImageOptions {
   MixOptions mix;
   DeformOptions deform;
   ImproveOptions improve;
-  /// Where the improvement leaves surface defects, or angles below its goal, everything is done once more
-  /// with this: a mesh that is decimated less is easier to keep free of them. None: never.
-  std::optional<Tolerance> stricter;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
 
 struct MeshImageReport {
   double lattice_spacing_mm = 0;
   double finest_spacing_mm = 0;
-  StageSeconds stage_seconds;  ///< files not included; where all was done twice, the sums of both passes
+  StageSeconds stage_seconds;  ///< files not included
   double seconds = 0;
   double cpu_seconds = 0;         ///< user and system, all threads, of the same stages
   double system_cpu_seconds = 0;  ///< the system's share of them
@@ -56,7 +51,6 @@ struct MeshImageReport {
   MixReport mix;
   DeformReport deform;
   ImproveReport improve;
-  bool was_stricter = false;  ///< the mesh is that of MeshImageOptions::stricter
   std::vector<std::string> warnings;
 };
 

@@ -12,6 +12,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
+#include "mesher/testing/mesh_checks.hpp"
 #include "mesher/testing/test_images.hpp"
 #include "mesher/topology/cell_quality.hpp"
 
@@ -235,28 +236,6 @@ TEST(MeshImage, EveryLabelOfANoisyImageIsInTheMeshOrNamed) {
   }
 }
 
-TEST(MeshImage, AllIsDoneOnceMoreWithStricterTolerancesWhereAnglesStayBelowTheGoal) {
-  const LabelImage image = testing::ball_image(24, 1, 9, 4);
-  MeshImageOptions options = preset_options("quality", image.frame);
-  ASSERT_TRUE(options.stricter);
-  MeshImageReport report;
-  mesh_of(image, options, report);
-  EXPECT_FALSE(report.was_stricter);
-  options.improve.repair_rounds = 0;  // what collapses leave below the goal stays there
-  report = {};
-  const Mesh twice = mesh_of(image, options, report);
-  EXPECT_TRUE(report.was_stricter);
-  options.refine.max_distance_mm = options.improve.reach_mm = options.stricter->max_distance_mm;
-  options.improve.deviation_diagonals = options.stricter->deviation_diagonals;
-  options.improve.collapse_leeway_deg = options.stricter->collapse_leeway_deg;
-  options.stricter.reset();
-  MeshImageReport once;
-  EXPECT_TRUE(same_mesh(twice, mesh_of(image, options, once)));
-  EXPECT_FALSE(once.was_stricter);
-  EXPECT_EQ(once.warnings, report.warnings);  // those of the mesh that is returned
-  EXPECT_EQ(once.stage_seconds.size(), report.stage_seconds.size());
-}
-
 TEST(MeshImage, NoLabelledTetKeepsTwoFacesTowardsBackground) {
   const LabelImage image = testing::noise_image(24, 0.5, 11);
   MeshImageOptions options;
@@ -297,6 +276,68 @@ TEST(MeshImage, WarnsOfTopologyChecksWithoutVoxelCleaning) {
   EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
     return w.find("manifold_voxels off") != std::string::npos;
   }));
+}
+
+TEST(MeshImage, ANumberOfElementsIsMetWithinATenth) {
+  const LabelImage image = testing::ball_image(48, 1, 18, 9);
+  MeshImageOptions options = preset_options("quality", image.frame);
+  MeshImageReport report;
+  const double by_default = static_cast<double>(mesh_of(image, options, report).tets.size());
+  for (const double share : {0.5, 2.0, 8.0}) {
+    options.elements = static_cast<std::size_t>(share * by_default);
+    const Mesh mesh = mesh_of(image, options, report);
+    EXPECT_NEAR(static_cast<double>(mesh.tets.size()), share * by_default, 0.1 * share * by_default);
+    EXPECT_GE(testing::smallest_dihedral_deg(mesh), 20);
+  }
+}
+
+TEST(MeshImage, AnEdgeLengthIsThatOfTheSurfaces) {
+  const LabelImage image = testing::ball_image(48, 1, 18);
+  for (const double length_mm : {1.5, 3.0, 5.0}) {
+    MeshImageOptions options = preset_options("quality", image.frame);
+    options.edge_length_mm = length_mm;
+    MeshImageReport report;
+    const Mesh mesh = mesh_of(image, options, report);
+    const auto neighbours = tet_neighbours(mesh.tets.nodes, mesh.points.size());
+    double sum = 0;
+    std::size_t edges = 0;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      for (std::size_t n = 0; n < 4; ++n) {
+        for (std::size_t c = 0; neighbours[t][n] == kNoTet && c < 3; ++c, ++edges) {
+          sum += (mesh.points[mesh.tets.nodes[t][kTetFace[n][c]]] -
+                  mesh.points[mesh.tets.nodes[t][kTetFace[n][(c + 1) % 3]]])
+                     .norm();
+        }
+      }
+    }
+    EXPECT_NEAR(sum / static_cast<double>(edges), length_mm, 0.3 * length_mm);
+  }
+}
+
+TEST(MeshImage, ADialWithoutEffectIsRefused) {
+  const LabelImage image = testing::ball_image(16, 1, 5);
+  for (const bool of_elements : {true, false}) {
+    MeshImageOptions options = preset_options("paper", image.frame);
+    (of_elements ? options.elements = 1000 : options.elements = 0);
+    options.edge_length_mm = of_elements ? 0 : 2;
+    MeshImageReport report;
+    EXPECT_THROW(mesh_of(image, options, report), InputError);
+  }
+}
+
+TEST(MeshImage, AThinBoxAndAWireKeepTheirTopology) {
+  const LabelImage image = testing::make_image({22, 20, 18}, {1, 1, 1}, 2, [](const Vec3& p) {
+    const bool inside = p.x > 2 && p.x < 16 && p.y > 2 && p.y < 14 && p.z > 2 && p.z < 12;
+    const bool hollow = p.x > 3 && p.x < 15 && p.y > 3 && p.y < 13 && p.z > 3 && p.z < 11;
+    const bool wire = p.y == 16 && p.z == 14 && p.x > 2 && p.x < 19;
+    return inside && !hollow ? 1 : wire ? 2 : 0;
+  });
+  const Mesh mesh = mesh_of(image);
+  const auto surface = [&](Label label) {
+    return testing::euler_characteristic(testing::surface_of_label(mesh.tets.nodes, mesh.tets.labels, label));
+  };
+  EXPECT_EQ(surface(1), 4);  // two spheres: a shell
+  EXPECT_EQ(surface(2), 2);  // one
 }
 
 }  // namespace

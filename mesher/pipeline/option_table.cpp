@@ -195,10 +195,23 @@ std::vector<OptionRow> lattice_rows() {
                    "default",
            .scales_with_voxels = true},
           [](auto& o) -> auto& { return o.refine.max_distance_mm; }, kNotNegative,
-          [](MeshImageOptions& o) {
-            o.improve.reach_mm = o.refine.max_distance_mm;
-            o.stricter.reset();
-          }),
+          [](MeshImageOptions& o) { o.improve.reach_mm = o.refine.max_distance_mm; }),
+      count({.name = "elements",
+             .group = kGroup,
+             .symbol = "N",
+             .text = "about this many elements: all lengths of the preset shrink or grow together until "
+                     "there are as "
+                     "many; 0: as many as they give"},
+            [](auto& o) -> auto& { return o.elements; }, {.lowest = 0, .highest = 1e9}),
+      number(
+          {.name = "edge-length",
+           .group = kGroup,
+           .symbol = "MM",
+           .unit = "mm",
+           .key = "edge_length_mm",
+           .text = "edges of surfaces are about this long: the same by a length",
+           .unset_text = "as long as max-distance and deviation let them be"},
+          [](auto& o) -> auto& { return o.edge_length_mm; }, kPositive),
       label_numbers(
           {.name = "size",
            .group = kGroup,
@@ -243,17 +256,13 @@ std::vector<OptionRow> improvement_rows() {
            .text =
                "rounds of decimation at most; they end when one removes less than 3 % of the tets; 0: none"},
           [](auto& o) -> auto& { return o.improve.decimation_rounds; }, {.lowest = 0, .highest = 20}),
-      number(
-          {.name = "deviation",
-           .group = kGroup,
-           .symbol = "DIAGONALS",
-           .unit = "voxel diagonals",
-           .key = "deviation_diagonals",
-           .text = "facets stay within this distance of the boundary; where neither this nor max-distance is "
-                   "given "
-                   "and defects are left, all is done once more with stricter values of both"},
-          [](auto& o) -> auto& { return o.improve.deviation_diagonals; }, {.lowest = 0.01, .highest = 2},
-          [](MeshImageOptions& o) { o.stricter.reset(); }),
+      number({.name = "deviation",
+              .group = kGroup,
+              .symbol = "DIAGONALS",
+              .unit = "voxel diagonals",
+              .key = "deviation_diagonals",
+              .text = "facets stay within this distance of the boundary"},
+             [](auto& o) -> auto& { return o.improve.deviation_diagonals; }, {.lowest = 0.01, .highest = 2}),
       number(
           {.name = "smoothness",
            .group = kGroup,
@@ -267,7 +276,7 @@ std::vector<OptionRow> improvement_rows() {
            .unit = "mm",
            .key = "smoothness_cap_mm",
            .text = "smoothness moves no vertex farther from the boundary than this",
-           .unset_text = "0.2 voxel diagonals, or the deviation where that is less"},
+           .unset_text = "half a voxel, less in thin parts, and no more than the deviation"},
           [](auto& o) -> auto& { return o.improve.smoothness_cap_mm; }, kPositive),
       number(
           {.name = "gradation",
@@ -275,8 +284,7 @@ std::vector<OptionRow> improvement_rows() {
            .symbol = "G",
            .text = "decimation makes no inner edge longer than about the edges of the nearest surface plus G "
                    "times "
-                   "the distance to it",
-           .unset_text = "no limit"},
+                   "the distance to it"},
           [](auto& o) -> auto& { return o.improve.gradation; }, kNotNegative),
   };
 }

@@ -117,13 +117,7 @@ TEST(OptionTable, AnUnknownNameListsTheKnownOnes) {
   EXPECT_NE(message.find("material-fidelity"), std::string::npos);
 }
 
-TEST(OptionTable, WhereTheUserDecidesTheStricterSecondRunIsOff) {
-  for (const char* name : {"max-distance", "deviation"}) {
-    MeshImageOptions options = preset_options("quality", ImageFrame());
-    ASSERT_TRUE(options.stricter);
-    set_option(options, name, 0.5);
-    EXPECT_FALSE(options.stricter) << name;
-  }
+TEST(OptionTable, TheLargestDistanceIsTheReachOfTheImprovementToo) {
   MeshImageOptions options = preset_options("quality", ImageFrame());
   set_option(options, "max-distance", 2.5);
   EXPECT_EQ(options.improve.reach_mm, 2.5);
@@ -143,9 +137,9 @@ TEST(OptionTable, DefaultsAreThoseOfThePreset) {
   frame.spacing_mm = {2, 3, 6};  // a diagonal of 7 mm
   const MeshImageOptions quality = preset_options("quality", frame);
   const auto of_quality = [&](const char* name) { return default_text(find_option(name), quality, 7); };
-  EXPECT_EQ(of_quality("max-distance"), "1.06 voxel diagonals");
+  EXPECT_EQ(of_quality("max-distance"), "1 voxel diagonals");
   EXPECT_EQ(of_quality("lattice-spacing"), "ten times the mean voxel spacing");
-  EXPECT_EQ(of_quality("gradation"), "no limit");
+  EXPECT_EQ(of_quality("gradation"), "1");
   EXPECT_EQ(of_quality("size"), "no limit");
   EXPECT_EQ(of_quality("no-manifold-voxels"), "true");
   EXPECT_EQ(of_quality("target-position"), "voxel-faces");

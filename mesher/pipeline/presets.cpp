@@ -21,6 +21,7 @@ RefineOptions refinement_by_distance(double diagonal_mm) {
           .max_distance_mm = tolerances::kReach * diagonal_mm,
           .max_vertex_distance_mm = tolerances::kLatticeFarLimit * diagonal_mm,
           .contact_distance_mm = tolerances::kContact * diagonal_mm,
+          .keep_thin_parts = true,
           .smooth_labels = true,
           .each_interface = true,
           .one_face_rule = false,
@@ -38,14 +39,11 @@ MeshImageOptions mixed_quality_options(double diagonal_mm) {
 
 MeshImageOptions quality_options(double diagonal_mm) {
   const RefineOptions refine = refinement_by_distance(diagonal_mm);
-  return {.clean = {.region_tolerance = 0, .manifold_voxels = false},  // the mesh's own repair changes less
+  return {.clean = {.region_tolerance = 0, .well_composed = true},
           .refine = refine,
           .topology = {.enabled = true, .one_face_rule = false, .image_passes = 4, .small_component = 0},
           .deform = {.iterations = 0, .displacement = kTargetsOnBoundary},
-          .improve = {.enabled = true, .reach_mm = refine.max_distance_mm},
-          .stricter = Tolerance{.max_distance_mm = tolerances::kStrictReach * diagonal_mm,
-                                .deviation_diagonals = tolerances::kStrictDeviation,
-                                .collapse_leeway_deg = 0}};
+          .improve = {.enabled = true, .reach_mm = refine.max_distance_mm}};
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "mesher/preprocess/clean_image.hpp"
 
+#include "mesher/preprocess/well_composed.hpp"
+
 namespace cbc3d {
 
 CleanReport clean_image(LabelImage& image, const CleanOptions& options, bool split) {
@@ -19,7 +21,8 @@ CleanReport clean_image(LabelImage& image, const CleanOptions& options, bool spl
       report.noise.holes_filled + report.noise.specks_relabelled == 0 && report.removed.regions_removed == 0;
   std::vector<std::size_t> after = as_before ? before : image.voxels_per_material();
   if (options.manifold_voxels) {
-    report.contacts = remove_voxel_contacts(image, options.seed);
+    report.contacts =
+        options.well_composed ? make_well_composed(image) : remove_voxel_contacts(image, options.seed);
     for (std::size_t m = 0; m < labels; ++m) {
       after[m] += static_cast<std::size_t>(report.contacts.gained[m]);  // modulo 2^64, so losses come off
     }

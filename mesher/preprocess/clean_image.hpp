@@ -16,7 +16,9 @@ struct CleanOptions {
   NoisyVoxels relabel_noise = NoisyVoxels::none;  ///< which noisy voxels are relabelled
   double region_tolerance = 1e-4;  ///< regions smaller than this share of their material are removed; 0: none
   bool manifold_voxels = true;     ///< remove vertex and edge contacts
-  std::uint64_t seed = 1;          ///< of the choice among templates
+  bool well_composed = false;  ///< with manifold_voxels: those of every label's complement too, joined rather
+                               ///< than cut (well_composed.hpp), in place of the paper's templates
+  std::uint64_t seed = 1;      ///< of the choice among templates
 };
 
 struct LabelChange {

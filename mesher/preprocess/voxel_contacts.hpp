@@ -18,6 +18,9 @@ struct ContactReport {
   std::size_t vertex_contacts = 0;  ///< found in the image as it came
   std::size_t edge_contacts = 0;
   std::size_t voxels_changed = 0;  ///< changes made, a voxel changed twice counts twice
+  std::size_t joined = 0;          ///< changes by which a label's voxels were joined through faces
+  std::size_t cut = 0;             ///< changes by which they were parted
+  std::size_t contacts_left = 0;   ///< places where a contact could not be removed
   int rounds = 0;
   std::vector<std::ptrdiff_t> gained;  ///< voxels by material, fewer than none where it lost some
 };

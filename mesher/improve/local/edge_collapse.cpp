@@ -39,7 +39,13 @@ std::uint32_t facets_to(const std::vector<SurfaceNeighbour>& neighbours, VertexI
 class EdgeCollapser {
  public:
   EdgeCollapser(Patch& patch, const CollapseOptions& options)
-      : patch_(patch), mesh_(patch.mesh), options_(options) {}
+      : patch_(patch), mesh_(patch.mesh), options_(options) {
+    for (TetId t = 0; t < mesh_.tet_slots(); ++t) {
+      tets_ += mesh_.alive(t) ? 1 : 0;
+    }
+  }
+
+  [[nodiscard]] bool may_go_on() const { return tets_ > options_.least_tets; }
 
   bool try_vertex(VertexId u) {
     if (mesh_.locked(u) || !mesh_.in_use(u)) {
@@ -47,7 +53,7 @@ class EdgeCollapser {
     }
     mesh_.star(u, patch_.star);
     before_ = worst_of_star();
-    if (options_.only_bad && before_ >= options_.threshold_sine_squared) {
+    if (options_.only_bad && before_ >= options_.threshold_quality) {
       return false;
     }
     if (!find_class(u)) {
@@ -62,7 +68,7 @@ class EdgeCollapser {
   [[nodiscard]] double worst_of_star() const {
     double worst = 1;
     for (const TetId t : patch_.star) {
-      worst = std::min(worst, mesh_.sine_squared(t));
+      worst = std::min(worst, mesh_.quality(t));
     }
     return worst;
   }
@@ -105,7 +111,7 @@ class EdgeCollapser {
   }
 
   void set_limits(VertexId u) {
-    floor_ = options_.only_bad ? before_ : options_.threshold_sine_squared;
+    floor_ = options_.only_bad ? before_ : options_.threshold_quality;
     double mean = 0;
     for (const VertexId w : patch_.around) {
       mean += (mesh_.point(w) - mesh_.point(u)).norm();
@@ -185,7 +191,7 @@ class EdgeCollapser {
       const Vec3& p = mesh_.point(nodes[face[0]]);
       const Vec3& q = mesh_.point(nodes[face[1]]);
       const Vec3& r = mesh_.point(nodes[face[2]]);
-      worst = std::min(worst, min_sine_squared(to.at, p, q, r));
+      worst = std::min(worst, tet_quality(to.at, p, q, r));
       if (worst <= floor_ || std::max({(p - to.at).squared_norm(), (q - to.at).squared_norm(),
                                        (r - to.at).squared_norm()}) > longest_squared_) {
         return -1;
@@ -235,7 +241,15 @@ class EdgeCollapser {
         return false;
       }
     }
-    return !on_facets_ || keeps_surface_topology(v);
+    return keeps_valence() && (!on_facets_ || keeps_surface_topology(v));
+  }
+
+  /// True when the one vertex that is left has no more edges than allowed, or than one of the two had. What
+  /// both are joined to is known.
+  [[nodiscard]] bool keeps_valence() const {
+    const std::size_t u = patch_.around.size();
+    const std::size_t v = patch_.around_other.size();
+    return u + v - 2 - on_edge_.size() <= std::max({options_.largest_valence, u, v});
   }
 
   bool keeps_surface_topology(VertexId v) {
@@ -298,7 +312,7 @@ class EdgeCollapser {
     });
   }
 
-  /// True when a new facet deviates more from the boundary than allowed and than the old ones do.
+  /// True when a new facet deviates or leans more from the boundary than allowed and than the old ones do.
   bool facets_deviate(VertexId u, VertexId v) {
     const Vec3& from = mesh_.point(u);
     const Vec3& to = mesh_.point(v);
@@ -308,8 +322,17 @@ class EdgeCollapser {
       if (after > patch_.guards.deviation_mm && limit < 0) {
         limit = largest_deviation(from);
       }
-      return after > patch_.guards.deviation_mm && after > limit;
+      return (after > patch_.guards.deviation_mm && after > limit) || tilts(f, from, to);
     });
+  }
+
+  /// True when a facet whose vertex goes from one place to another leans farther from the boundary than
+  /// allowed and than before.
+  [[nodiscard]] bool tilts(const FacetAt& f, const Vec3& from, const Vec3& to) const {
+    const Vec3& p = mesh_.point(f.first);
+    const Vec3& q = mesh_.point(f.second);
+    const double after = patch_.facet_cosine(to, p, q, f.inner, f.outer);
+    return after < patch_.guards.least_cosine && after < patch_.facet_cosine(from, p, q, f.inner, f.outer);
   }
 
   [[nodiscard]] double largest_deviation(const Vec3& from) const {
@@ -495,13 +518,14 @@ class EdgeCollapser {
            !facets_deviate(patch_.facets_other, mesh_.point(v), u, to.at);
   }
 
-  /// True when a facet that stays deviates more from the boundary than allowed and than before.
+  /// True when a facet that stays deviates or leans more from the boundary than allowed and than before.
   [[nodiscard]] bool facets_deviate(const std::vector<FacetAt>& facets, const Vec3& from, VertexId gone,
                                     const Vec3& to) const {
     return any_staying(facets, gone, [&](const FacetAt& f, const Vec3& p, const Vec3& q) {
       const double after = patch_.facet_deviation(to, p, q, f.inner, f.outer);
-      return after > patch_.guards.deviation_mm &&
-             after > patch_.facet_deviation(from, p, q, f.inner, f.outer);
+      return (after > patch_.guards.deviation_mm &&
+              after > patch_.facet_deviation(from, p, q, f.inner, f.outer)) ||
+             tilts(f, from, to);
     });
   }
 
@@ -545,6 +569,7 @@ class EdgeCollapser {
     if (!mesh_.replace(patch_.star, patch_.fresh)) {
       return false;
     }
+    tets_ -= patch_.star.size() - patch_.fresh.size();
     patch_.sets[u] = {};
     if (near_facets) {
       patch_.renew_sets(patch_.fresh);
@@ -555,6 +580,7 @@ class EdgeCollapser {
   Patch& patch_;
   TetComplex& mesh_;
   const CollapseOptions& options_;
+  std::size_t tets_ = 0;  // of the patch, alive
   bool on_facets_ = false, on_curve_ = false;
   double before_ = 0;           // worst angle of the star
   double floor_ = 0;            // which angles have to be above
@@ -572,7 +598,7 @@ class EdgeCollapser {
 std::size_t collapse_edges(Patch& patch, const CollapseOptions& options) {
   EdgeCollapser collapser(patch, options);
   std::size_t removed = 0;
-  for (VertexId v = 0; v < patch.mesh.vertex_count(); ++v) {
+  for (VertexId v = 0; v < patch.mesh.vertex_count() && collapser.may_go_on(); ++v) {
     removed += collapser.try_vertex(v) ? 1 : 0;
   }
   return removed;

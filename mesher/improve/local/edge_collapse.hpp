@@ -9,16 +9,18 @@
 namespace cbc3d {
 
 struct CollapseOptions {
-  double threshold_sine_squared = 0.1;  ///< new tets are no worse than this
-  double longest_growth = 2.5;          ///< longest new edge, in multiples of the mean old one
+  double threshold_quality = 0.1;  ///< new tets are no worse than this
+  double longest_growth = 2.5;     ///< longest new edge, in multiples of the mean old one
   const std::vector<double>* longest_mm =
-      nullptr;  ///< longest new edge in tets of each material; null: no limit
+      nullptr;                       ///< longest new edge in tets of each material; null: no limit
+  std::size_t largest_valence = 26;  ///< edges at the vertex that is left, unless one of the two had more
   bool only_bad =
       false;            ///< only vertices of tets below the threshold, where a collapse lifts the worst angle
   bool graded = false;  ///< where inner vertices vanish, new edges keep to Patch::longest_mm
   bool optimize_position =
-      false;                ///< where no neighbour's place will do, one between the two is searched for
-  double volume_share = 1;  ///< largest loss of a material, as a share of its volume around the vertex
+      false;                   ///< where no neighbour's place will do, one between the two is searched for
+  std::size_t least_tets = 0;  ///< the pass ends when the patch has no more tets than this
+  double volume_share = 1;     ///< largest loss of a material, as a share of its volume around the vertex
 };
 
 /// One pass over all vertices in order: each collapses onto the neighbour that leaves the best worst angle,

@@ -30,7 +30,7 @@ TEST(EdgeCollapse, RemovalAndCollapseMoveNoVolumeButAtTheBoundary) {
   const auto before = trial.volumes();
   trial.apply([&](Patch& p) {
     remove_edges(p, kGood);
-    collapse_edges(p, {.threshold_sine_squared = kGoal, .longest_growth = 2.5});
+    collapse_edges(p, {.threshold_quality = kGoal, .longest_growth = 2.5});
   });
   for (std::size_t m = 1; m < before.size(); ++m) {
     // A sphere of radius 6 within the guard of .15 diagonals: less than 3 * .26 / 6 of its volume.
@@ -56,8 +56,7 @@ TEST(EdgeCollapse, CollapsesStayWithinTheLongestEdge) {
   const std::vector<double> limits(3, limit);
   std::size_t collapsed = 0;
   trial.apply([&](Patch& p) {
-    collapsed +=
-        collapse_edges(p, {.threshold_sine_squared = 0.05, .longest_growth = 10, .longest_mm = &limits});
+    collapsed += collapse_edges(p, {.threshold_quality = 0.05, .longest_growth = 10, .longest_mm = &limits});
   });
   EXPECT_GT(collapsed, 5U);
   EXPECT_LE(longest(), limit * (1 + 1e-9));
@@ -72,8 +71,8 @@ TEST(EdgeCollapse, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
       trial.apply([](Patch& p) { remove_edges(p, kGood); });
       const std::size_t covered = covered_count(trial);
       const std::vector<long> chi = trial.characteristics();
-      const double worst = trial.worst_sine_squared();
-      CollapseOptions options{.threshold_sine_squared = kGoal, .longest_growth = 5};
+      const double worst = trial.worst_quality();
+      CollapseOptions options{.threshold_quality = kGoal, .longest_growth = 5};
       options.optimize_position = optimize_position;
       std::size_t removed = 1;
       for (int pass = 0; removed > 0; ++pass) {
@@ -83,7 +82,7 @@ TEST(EdgeCollapse, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {
       }
       expect_sound(trial, covered);
       EXPECT_EQ(trial.characteristics(), chi);
-      EXPECT_GE(trial.worst_sine_squared(), std::min(worst, kGoal) * (1 - 1e-9));
+      EXPECT_GE(trial.worst_quality(), std::min(worst, kGoal) * (1 - 1e-9));
       left[optimize_position ? 1 : 0] = trial.mesh.tets.size();
     }
     EXPECT_LT(left[1], left[0] * 9 / 10);
@@ -100,7 +99,7 @@ TEST(EdgeCollapse, CollapsesLeaveThinPartsTheirVolume) {
     Trial trial(plate);
     trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
     const double before = trial.volumes()[1];
-    CollapseOptions options{.threshold_sine_squared = 0.02, .longest_growth = 10};
+    CollapseOptions options{.threshold_quality = 0.02, .longest_growth = 10};
     options.optimize_position = true;
     options.volume_share = guarded ? 0 : 1;
     std::size_t removed = 0;
@@ -110,6 +109,55 @@ TEST(EdgeCollapse, CollapsesLeaveThinPartsTheirVolume) {
   }
   EXPECT_GE(kept[1], 1 - 1e-9);
   EXPECT_LT(kept[0], kept[1]);
+}
+
+/// The largest number of edges at a vertex.
+std::size_t largest_valence(const MaterialMesh& mesh) {
+  std::vector<std::vector<VertexId>> neighbours(mesh.points.size());
+  for (const auto& tet : mesh.tets) {
+    for (const VertexId v : tet) {
+      for (const VertexId w : tet) {
+        auto& known = neighbours[v];
+        if (w != v && std::find(known.begin(), known.end(), w) == known.end()) {
+          known.push_back(w);
+        }
+      }
+    }
+  }
+  std::size_t largest = 0;
+  for (const auto& known : neighbours) {
+    largest = std::max(largest, known.size());
+  }
+  return largest;
+}
+
+TEST(EdgeCollapse, BoundsTheEdgesAtAVertex) {
+  std::array<std::size_t, 2> largest{};
+  for (const bool bounded : {false, true}) {
+    Trial trial(touching_balls());
+    CollapseOptions options{.threshold_quality = 0.01, .longest_growth = 10};
+    options.largest_valence = bounded ? 20 : 1000;
+    const std::size_t before = largest_valence(trial.mesh);
+    for (int pass = 0; pass < 6; ++pass) {
+      trial.apply([&](Patch& p) { collapse_edges(p, options); });
+    }
+    largest[bounded ? 1 : 0] = largest_valence(trial.mesh);
+    EXPECT_LE(largest[1], std::max(before, std::size_t{20}));
+  }
+  EXPECT_GT(largest[0], largest[1]);
+}
+
+TEST(EdgeCollapse, EndsWhenThereAreNoMoreTetsThanAskedFor) {
+  Trial free(touching_balls());
+  const std::size_t before = free.mesh.tets.size();
+  CollapseOptions options{.threshold_quality = 0.01, .longest_growth = 10};
+  free.apply([&](Patch& p) { collapse_edges(p, options); });
+  const std::size_t least = (before + free.mesh.tets.size()) / 2;
+  Trial bounded(touching_balls());
+  options.least_tets = least;
+  bounded.apply([&](Patch& p) { collapse_edges(p, options); });
+  EXPECT_LE(bounded.mesh.tets.size(), least);
+  EXPECT_GT(bounded.mesh.tets.size() + 40, least);  // the last collapse took no more than a star
 }
 
 }  // namespace

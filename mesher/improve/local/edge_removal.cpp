@@ -57,7 +57,7 @@ class EdgeRemover {
   [[nodiscard]] double worst_of_ring() const {
     double worst = 1;
     for (const TetId t : ring_.tets) {
-      worst = std::min(worst, mesh_.sine_squared(t));
+      worst = std::min(worst, mesh_.quality(t));
     }
     return worst;
   }
@@ -154,9 +154,9 @@ class EdgeRemover {
       const Vec3& p = at(base + i);
       const Vec3& q = at(base + k);
       const Vec3& r = at(base + j);
-      worst = std::min(worst, min_sine_squared(p, q, r, mesh_.point(b_)));
+      worst = std::min(worst, tet_quality(p, q, r, mesh_.point(b_)));
       if (worst > std::max(floor, best_[i][j])) {
-        worst = std::min(worst, min_sine_squared(p, r, q, mesh_.point(a_)));
+        worst = std::min(worst, tet_quality(p, r, q, mesh_.point(a_)));
       }
       if (worst > best_[i][j]) {
         best_[i][j] = worst;
@@ -258,7 +258,7 @@ class EdgeRemover {
 
 }  // namespace
 
-std::size_t flatten_interfaces(Patch& patch, double floor_sine_squared) {
+std::size_t flatten_interfaces(Patch& patch, double floor_quality) {
   EdgeRemover remover(patch);
   std::size_t flipped = 0;
   std::vector<FacetAt> facets;
@@ -269,7 +269,7 @@ std::size_t flatten_interfaces(Patch& patch, double floor_sine_squared) {
     patch.mesh.star(v, patch.star);
     patch.mesh.facets(v, patch.star, facets);
     for (const FacetAt& f : facets) {
-      if (f.first > v && remover.try_flatten(v, f.first, floor_sine_squared)) {
+      if (f.first > v && remover.try_flatten(v, f.first, floor_quality)) {
         ++flipped;
         break;
       }
@@ -278,12 +278,12 @@ std::size_t flatten_interfaces(Patch& patch, double floor_sine_squared) {
   return flipped;
 }
 
-std::size_t remove_edges(Patch& patch, double goal_sine_squared) {
+std::size_t remove_edges(Patch& patch, double goal_quality) {
   EdgeRemover remover(patch);
   std::size_t removed = 0;
   const auto slots = static_cast<TetId>(patch.mesh.tet_slots());
   for (TetId t = 0; t < slots; ++t) {
-    if (!patch.mesh.alive(t) || patch.mesh.sine_squared(t) >= goal_sine_squared) {
+    if (!patch.mesh.alive(t) || patch.mesh.quality(t) >= goal_quality) {
       continue;
     }
     const auto nodes = patch.mesh.nodes(t);

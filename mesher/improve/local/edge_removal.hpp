@@ -15,10 +15,10 @@ namespace cbc3d {
 /// worst angle of the tets around it. An edge on one interface is flipped to the other diagonal of its two
 /// facets, with the guards of the patch; edges where more than two materials meet stay. Returns the number of
 /// edges removed.
-std::size_t remove_edges(Patch& patch, double goal_sine_squared);
+std::size_t remove_edges(Patch& patch, double goal_quality);
 
 /// Flips edges of interfaces where that makes the interface flatter, if no new tet has a worse angle than the
 /// floor or than the worst one before. Returns the number of edges flipped.
-std::size_t flatten_interfaces(Patch& patch, double floor_sine_squared);
+std::size_t flatten_interfaces(Patch& patch, double floor_quality);
 
 }  // namespace cbc3d

@@ -25,8 +25,8 @@ TEST(EdgeRemoval, ALongEdgeOfThreeTetsMakesRoomForTwo) {
   const testing::Summary after = testing::summary_of(patch.mesh);
   EXPECT_EQ(after.tets, 2U);
   EXPECT_NEAR(after.volume_mm3, before.volume_mm3, 1e-12);
-  EXPECT_LT(before.worst_sine_squared, kGood);
-  EXPECT_GT(after.worst_sine_squared, kGood);
+  EXPECT_LT(before.worst_quality, kGood);
+  EXPECT_GT(after.worst_quality, kGood);
   EdgeRing ring;
   EXPECT_FALSE(patch.mesh.ring(0, 1, ring));  // the edge is gone
   EXPECT_EQ(remove_edges(patch, kGood), 0U);
@@ -35,7 +35,7 @@ TEST(EdgeRemoval, ALongEdgeOfThreeTetsMakesRoomForTwo) {
 TEST(EdgeRemoval, AGoodEdgeStays) {
   const testing::BoundaryEverywhere domain;
   Patch patch = testing::make_patch(testing::tets_around_edge(6, 0.7), domain);
-  ASSERT_GT(testing::summary_of(patch.mesh).worst_sine_squared, kGood);
+  ASSERT_GT(testing::summary_of(patch.mesh).worst_quality, kGood);
   EXPECT_EQ(remove_edges(patch, kGood), 0U);
   EXPECT_EQ(testing::summary_of(patch.mesh).tets, 6U);
 }
@@ -43,12 +43,12 @@ TEST(EdgeRemoval, AGoodEdgeStays) {
 TEST(EdgeRemoval, KeepsALatticeMeshSoundAndItsWorstAngle) {
   Trial trial(testing::touching_balls());
   trial.apply([](Patch& p) { relax_vertices(p, kRelax); });
-  const double worst = trial.worst_sine_squared();
+  const double worst = trial.worst_quality();
   const std::size_t covered = covered_count(trial);
   std::size_t removed = 0;
   trial.apply([&](Patch& p) { removed += remove_edges(p, kGood); });
   EXPECT_GT(removed, 10U);
-  EXPECT_GE(trial.worst_sine_squared(), worst);
+  EXPECT_GE(trial.worst_quality(), worst);
   expect_sound(trial, covered);
 }
 

@@ -40,7 +40,7 @@ class EdgeSplitter {
     const Vec3& pa = mesh_.point(a);
     const Vec3& pb = mesh_.point(b);
     for (std::size_t i = 0; i < n; ++i) {
-      before = std::min(before, mesh_.sine_squared(ring_.tets[i]));
+      before = std::min(before, mesh_.quality(ring_.tets[i]));
       const Vec3& r = mesh_.point(ring_.vertices[i]);
       const Vec3& s = mesh_.point(ring_.vertices[(i + 1) % n]);
       link_.push_back({pb, r, s});
@@ -111,12 +111,12 @@ class EdgeSplitter {
 
 }  // namespace
 
-std::size_t split_edges(Patch& patch, double goal_sine_squared) {
+std::size_t split_edges(Patch& patch, double goal_quality) {
   EdgeSplitter splitter(patch);
   std::size_t split = 0;
   const auto slots = static_cast<TetId>(patch.mesh.tet_slots());
   for (TetId t = 0; t < slots; ++t) {
-    if (patch.mesh.alive(t) && patch.mesh.sine_squared(t) < goal_sine_squared) {
+    if (patch.mesh.alive(t) && patch.mesh.quality(t) < goal_quality) {
       split += splitter.try_tet(t) ? 1 : 0;
     }
   }

@@ -10,6 +10,6 @@ namespace cbc3d {
 /// the worst at the edge was (Klingner and Shewchuk, Int. Meshing Roundtable 2007, insert vertices likewise).
 /// This cures flat tets with all vertices on one interface, which no move, flip or collapse reaches. Returns
 /// the number of edges split.
-std::size_t split_edges(Patch& patch, double goal_sine_squared);
+std::size_t split_edges(Patch& patch, double goal_quality);
 
 }  // namespace cbc3d

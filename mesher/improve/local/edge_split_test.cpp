@@ -12,18 +12,18 @@
 namespace cbc3d {
 namespace {
 
-const double kGoal = sine_squared_of_deg(30);
+const double kGoal = quality_of_deg(30);
 
 TEST(EdgeSplit, ALongEdgeOfFourTetsIsSplitInTheMiddle) {
   const testing::BoundaryEverywhere domain;
   Patch patch = testing::make_patch(testing::tets_around_edge(4, 6), domain);
   const testing::Summary before = testing::summary_of(patch.mesh);
-  ASSERT_LT(before.worst_sine_squared, kGoal);
+  ASSERT_LT(before.worst_quality, kGoal);
   EXPECT_EQ(split_edges(patch, kGoal), 1U);
   const testing::Summary after = testing::summary_of(patch.mesh);
   EXPECT_EQ(after.tets, 8U);
   EXPECT_NEAR(after.volume_mm3, before.volume_mm3, 1e-9);
-  EXPECT_GT(after.worst_sine_squared, 4 * before.worst_sine_squared);
+  EXPECT_GT(after.worst_quality, 4 * before.worst_quality);
   ASSERT_EQ(patch.mesh.vertex_count(), 7U);
   const Vec3& middle = patch.mesh.point(6);
   EXPECT_LT(std::hypot(middle.x, middle.y), 0.5);

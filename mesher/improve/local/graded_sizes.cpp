@@ -42,7 +42,7 @@ std::vector<double> interface_sizes(const MaterialMesh& mesh) {
 
 }  // namespace
 
-std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation) {
+std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation, double largest_mm) {
   std::vector<double> size = interface_sizes(mesh);
   const VertexCells at = tets_of_vertices(mesh.tets, mesh.points.size());
   using Known = std::pair<double, VertexId>;
@@ -67,6 +67,9 @@ std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation) {
         }
       }
     }
+  }
+  for (double& s : size) {
+    s = std::min(s, largest_mm);
   }
   return size;
 }

@@ -20,12 +20,24 @@ using testing::FittedBall;
 using testing::for_each_edge;
 using testing::lattice_mesh;
 
+constexpr double kNoLimit = 1e9;
+
+TEST(GradedSizes, NoneIsAboveTheLargest) {
+  const MaterialMesh mesh = lattice_mesh(cut_block());
+  const std::vector<double> free = graded_sizes(mesh, 0.3, kNoLimit);
+  const double largest = *std::max_element(free.begin(), free.end());
+  const std::vector<double> bound = graded_sizes(mesh, 0.3, 0.8 * largest);
+  for (std::size_t v = 0; v < free.size(); ++v) {
+    EXPECT_EQ(bound[v], std::min(free[v], 0.8 * largest));
+  }
+}
+
 TEST(GradedSizes, SizesGrowFromTheInterfacesByTheWay) {
   const LabelImage image = cut_block();
   const MaterialMesh mesh = lattice_mesh(image);
   constexpr double kGradation = 0.3;
-  const std::vector<double> flat = graded_sizes(mesh, 0);
-  const std::vector<double> sizes = graded_sizes(mesh, kGradation);
+  const std::vector<double> flat = graded_sizes(mesh, 0, kNoLimit);
+  const std::vector<double> sizes = graded_sizes(mesh, kGradation, kNoLimit);
   std::vector<double> least(mesh.points.size(), 1e300);  // by way of a neighbour
   const double smallest = *std::min_element(flat.begin(), flat.end());
   for_each_edge(mesh, [&](VertexId a, VertexId b, bool) {
@@ -53,7 +65,7 @@ TEST(GradedSizes, CollapsesKeepToIt) {
   const auto key = [](VertexId a, VertexId b) { return std::array{std::min(a, b), std::max(a, b)}; };
   std::set<std::array<VertexId, 2>> old;
   for_each_edge(trial.mesh, [&](VertexId a, VertexId b, bool) { old.insert(key(a, b)); });
-  const std::vector<double> sizes = graded_sizes(trial.mesh, 0.3);
+  const std::vector<double> sizes = graded_sizes(trial.mesh, 0.3, kNoLimit);
   const auto longer_than_allowed = [&](bool graded) {
     MaterialMesh mesh = trial.mesh;
     std::vector<VertexId> covering = trial.covering;
@@ -65,8 +77,7 @@ TEST(GradedSizes, CollapsesKeepToIt) {
     rules.longest_mm = sizes;
     std::size_t collapsed = 0;
     improve_in_patches(mesh, covering, rules, 0, [&](Patch& patch) {
-      collapsed +=
-          collapse_edges(patch, {.threshold_sine_squared = 0.03, .longest_growth = 4, .graded = graded});
+      collapsed += collapse_edges(patch, {.threshold_quality = 0.03, .longest_growth = 4, .graded = graded});
     });
     EXPECT_GT(collapsed, 5U);
     std::size_t count = 0;

@@ -233,6 +233,7 @@ Patch make_patch(LocalMesh& local, const PatchRules& rules, const SamplesOfVerti
               .sets = {},
               .boundaries = rules.boundaries,
               .guards = rules.guards};
+  patch.smoothness_cap_mm = rules.smoothness_cap_mm;
   for (std::size_t v = 0; !rules.longest_mm.empty() && v < local.vertices.size(); ++v) {
     patch.longest_mm.push_back(rules.longest_mm[local.vertices[v]]);
   }
@@ -325,7 +326,7 @@ std::size_t mark_bad(const MaterialMesh& mesh, double goal, std::vector<std::uin
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& n = mesh.tets[t];
     chosen[t] =
-        min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) < goal;
+        tet_quality(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]) < goal;
     bad += chosen[t];
   }
   return bad;
@@ -351,10 +352,10 @@ void grow(const MaterialMesh& mesh, std::vector<std::uint8_t>& chosen) {
 }  // namespace
 
 std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& covering,
-                                  const PatchRules& rules, int round, double goal_sine_squared, int rings,
+                                  const PatchRules& rules, int round, double goal_quality, int rings,
                                   const std::function<void(Patch&)>& improve) {
   std::vector<std::uint8_t> chosen(mesh.tets.size(), 0);
-  const std::size_t bad = mark_bad(mesh, goal_sine_squared, chosen);
+  const std::size_t bad = mark_bad(mesh, goal_quality, chosen);
   if (bad == 0) {
     return 0;
   }

@@ -21,6 +21,7 @@ struct PatchRules {
   std::span<const float> own_reach_mm = {};    ///< a sample's own reach where above 0; empty: none has one
   std::span<const std::uint8_t> locked = {};   ///< vertices that must stay; empty: none
   std::span<const double> longest_mm = {};     ///< Patch::longest_mm of every vertex; empty: no limit
+  std::span<const double> smoothness_cap_mm = {};  ///< of every material, see Patch; empty: no limit
 };
 
 /// Cuts the mesh, calls improve(patch) for every patch in parallel, and puts the results back. `covering` has
@@ -32,7 +33,7 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& covering, con
 /// The same for the tets below the goal and `rings` layers of tets around them alone: the rest is left as it
 /// is, so that a mesh with few bad tets takes little time. Returns the number of tets below the goal.
 std::size_t improve_near_bad_tets(MaterialMesh& mesh, std::vector<VertexId>& covering,
-                                  const PatchRules& rules, int round, double goal_sine_squared, int rings,
+                                  const PatchRules& rules, int round, double goal_quality, int rings,
                                   const std::function<void(Patch&)>& improve);
 
 }  // namespace cbc3d

@@ -48,7 +48,7 @@ TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
           relax_vertices(p, kRelax);
           remove_edges(p, kGood);
           flatten_interfaces(p, kGoal);
-          collapse_edges(p, {.threshold_sine_squared = kGoal, .longest_growth = 2.5});
+          collapse_edges(p, {.threshold_quality = kGoal, .longest_growth = 2.5});
           optimize_worst_angles(p, kGoal);
         },
         round);

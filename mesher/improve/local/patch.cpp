@@ -13,6 +13,14 @@ double Patch::facet_deviation(const Vec3& p, const Vec3& q, const Vec3& r, Mater
   return largest;
 }
 
+double Patch::facet_cosine(const Vec3& p, const Vec3& q, const Vec3& r, MaterialId inner,
+                           MaterialId outer) const {
+  const BoundaryDistance at = boundaries.distance((p + q + r) / 3, inner, outer);
+  const Vec3 normal = (q - p).cross(r - p);
+  const double area = normal.norm();
+  return at.is_close && area > 0 ? -normal.dot(at.normal) / area : 1;
+}
+
 void Patch::renew_sets(std::span<const FreshTet> fresh_tets) {
   around_other.clear();
   // A vertex within one material stays there while the tets put in are of it.

@@ -10,8 +10,9 @@ namespace cbc3d {
 /// The limits that no operation may exceed, unless they were exceeded before.
 struct Guards {
   double deviation_mm =
-      0.3;              ///< of vertices, and of the centres and side middles of facets, from the boundary
-  double scale_mm = 1;  ///< distances from the boundary count in this unit
+      0.3;  ///< of vertices, and of the centres and side middles of facets, from the boundary
+  double least_cosine = 0.7071;  ///< of the angle between a facet and the boundary: 45 degrees
+  double scale_mm = 1;           ///< distances from the boundary count in this unit
 };
 
 /// The domain's boundaries, moved outwards by an offset for each material: smooth surfaces lose volume, and
@@ -37,10 +38,16 @@ struct Patch {
   /// Largest deviation of a facet's centre and of the middles of its sides from the boundary.
   [[nodiscard]] double facet_deviation(const Vec3& p, const Vec3& q, const Vec3& r, MaterialId inner,
                                        MaterialId outer) const;
+  /// Cosine of the angle between a facet's normal (towards `outer`) and the boundary's at its centre; 1 where
+  /// the boundary has none.
+  [[nodiscard]] double facet_cosine(const Vec3& p, const Vec3& q, const Vec3& r, MaterialId inner,
+                                    MaterialId outer) const;
   /// Renews `sets` for the nodes of tets that were put in.
   void renew_sets(std::span<const FreshTet> fresh);
   void renew_sets_of(std::span<const VertexId> vertices);
 
+  /// Smoothing moves no vertex farther from a boundary of the material, mm; empty: no limit.
+  std::span<const double> smoothness_cap_mm = {};
   /// No inner vertex vanishes for edges longer than the mean of this at their ends, mm; empty: no limit.
   std::vector<double> longest_mm = {};
 

@@ -36,7 +36,7 @@ TEST(Patch, OperationsKeepAllThatTheGuardsPromise) {
       ASSERT_EQ(chi, (std::vector<long>{4, 0}));
     }
     std::array<std::size_t, 6> done{};
-    double worst = trial.worst_sine_squared();
+    double worst = trial.worst_quality();
     for (int round = 0; round < 2; ++round) {
       const auto run = [&](std::size_t which, double floor,
                            const std::function<std::size_t(Patch&)>& operation) {
@@ -44,20 +44,19 @@ TEST(Patch, OperationsKeepAllThatTheGuardsPromise) {
         SCOPED_TRACE("operation " + std::to_string(which));
         expect_sound(trial, covered);
         EXPECT_EQ(trial.characteristics(), chi);
-        const double after = trial.worst_sine_squared();
+        const double after = trial.worst_quality();
         EXPECT_GE(after, std::min(worst, floor) * (1 - 1e-9));
         worst = after;
       };
       run(0, 0, [](Patch& p) { return relax_vertices(p, kRelax); });
       run(1, 1, [](Patch& p) { return remove_edges(p, kGood); });
       run(2, 0.999 * std::min(worst, kGoal), [](Patch& p) { return flatten_interfaces(p, kGoal); });
-      run(3, kGoal, [](Patch& p) {
-        return collapse_edges(p, {.threshold_sine_squared = kGoal, .longest_growth = 2.5});
-      });
+      run(3, kGoal,
+          [](Patch& p) { return collapse_edges(p, {.threshold_quality = kGoal, .longest_growth = 2.5}); });
       run(0, 0, [](Patch& p) { return relax_vertices(p, kRelax); });
       run(4, 1, [](Patch& p) { return optimize_worst_angles(p, kGood); });
       run(5, 1, [](Patch& p) {
-        return collapse_edges(p, {.threshold_sine_squared = kGood, .longest_growth = 2.5, .only_bad = true});
+        return collapse_edges(p, {.threshold_quality = kGood, .longest_growth = 2.5, .only_bad = true});
       });
     }
     for (std::size_t which = 0; which < 5; ++which) {
@@ -81,7 +80,7 @@ TEST(Patch, OperationsLeaveVolumesAloneWhereTheBoundaryIsLocked) {
       if (patch.on_boundary(v)) patch.mesh.lock(v);
     }
     done += relax_vertices(patch, kRelax) + remove_edges(patch, kGood) + optimize_worst_angles(patch, kGood) +
-            collapse_edges(patch, {.threshold_sine_squared = 0.05, .longest_growth = 2.5});
+            collapse_edges(patch, {.threshold_quality = 0.05, .longest_growth = 2.5});
     EXPECT_EQ(flatten_interfaces(patch, 0), 0U);
     EXPECT_EQ(project_far_vertices(patch, kRelax), 0U);
   });

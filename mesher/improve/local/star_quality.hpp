@@ -1,4 +1,4 @@
-// The quality of a vertex's star, its worst angle, as a function of the vertex's place: what
+// The quality of a vertex's star, that of its worst tet, as a function of the vertex's place: what
 // optimisation-based smoothing maximises (Freitag and Ollivier-Gooch, Int. J. Numer. Meth. Engng 40, 1997).
 #pragma once
 
@@ -13,12 +13,12 @@ namespace cbc3d {
 /// The outer faces of a vertex's star: with the vertex in front each is one of its tets, positively oriented.
 using Link = std::vector<std::array<Vec3, 3>>;
 
-/// The worst angle of a tet with its vertex at x, as sin^2. For a tet that is not positive it is a value
+/// The quality of a tet with its vertex at x. For a tet that is not positive it is a value
 /// below -1 that falls with the volume, so that a search leads out of a tangled star too.
 inline double quality(const Vec3& x, const std::array<Vec3, 3>& face) {
-  const double sine_squared = min_sine_squared(x, face[0], face[1], face[2]);
-  if (sine_squared >= 0) {
-    return sine_squared;
+  const double value = tet_quality(x, face[0], face[1], face[2]);
+  if (value >= 0) {
+    return value;
   }
   const double side = (face[0] - face[1]).norm() + (face[1] - face[2]).norm() + (face[2] - face[0]).norm();
   const double volume = (face[0] - x).cross(face[1] - x).dot(face[2] - x);

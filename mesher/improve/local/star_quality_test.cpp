@@ -31,7 +31,7 @@ TEST(StarQuality, IsTheWorstAngleOrBelowMinusOneAndRisesWithTheVolume) {
   const Link link = octahedron();
   EXPECT_NEAR(worst_quality(link, {0, 0, 0}, -1e300), quality({0, 0, 0}, link[0]), 1e-12);
   for (const auto& face : link) {
-    EXPECT_EQ(quality({0, 0, 0}, face), min_sine_squared({0, 0, 0}, face[0], face[1], face[2]));
+    EXPECT_EQ(quality({0, 0, 0}, face), tet_quality({0, 0, 0}, face[0], face[1], face[2]));
     EXPECT_GT(quality({0, 0, 0}, face), 0);
   }
   double last = -1;

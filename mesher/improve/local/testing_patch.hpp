@@ -84,7 +84,7 @@ inline TetComplex tets_around_edge(std::size_t count, double h) {
 struct Summary {
   std::size_t tets = 0;
   double volume_mm3 = 0;
-  double worst_sine_squared = 1;
+  double worst_quality = 1;
 };
 inline Summary summary_of(const TetComplex& mesh) {
   Summary sum;
@@ -94,7 +94,7 @@ inline Summary summary_of(const TetComplex& mesh) {
       ++sum.tets;
       sum.volume_mm3 +=
           six_volumes(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2]), mesh.point(n[3])) / 6;
-      sum.worst_sine_squared = std::min(sum.worst_sine_squared, mesh.sine_squared(t));
+      sum.worst_quality = std::min(sum.worst_quality, mesh.quality(t));
     }
   }
   return sum;

@@ -47,11 +47,11 @@ struct Trial {
     improve_in_patches(mesh, covering, rules, round, operation);
   }
 
-  [[nodiscard]] double worst_sine_squared() const {
+  [[nodiscard]] double worst_quality() const {
     double worst = 1;
     for (const auto& n : mesh.tets) {
-      worst = std::min(worst, min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]],
-                                               mesh.points[n[3]]));
+      worst = std::min(
+          worst, tet_quality(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]));
     }
     return worst;
   }
@@ -105,7 +105,7 @@ inline std::size_t covered_count(const Trial& trial) {
 }
 
 inline const RelaxOptions kRelax = {.surface_weight = 1000, .max_step = 0.5, .skip_below_mm = 0};
-inline const double kGood = sine_squared_of_deg(35);
-inline const double kGoal = sine_squared_of_deg(20);
+inline const double kGood = quality_of_deg(35);
+inline const double kGoal = quality_of_deg(20);
 
 }  // namespace cbc3d::testing

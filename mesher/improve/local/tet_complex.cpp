@@ -32,9 +32,9 @@ TetComplex::TetComplex(std::vector<Vec3> points, TetNodes tets, std::vector<Mate
   }
 }
 
-double TetComplex::sine_squared(TetId t) const {
+double TetComplex::quality(TetId t) const {
   const auto& n = tets_[t];
-  return min_sine_squared(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]);
+  return tet_quality(points_[n[0]], points_[n[1]], points_[n[2]], points_[n[3]]);
 }
 
 template <typename Ends>

@@ -56,7 +56,7 @@ class TetComplex {
   [[nodiscard]] const Vec3& point(VertexId v) const { return points_[v]; }
   void move(VertexId v, const Vec3& to) { points_[v] = to; }
   void lock(VertexId v) { locked_[v] = 1; }
-  [[nodiscard]] double sine_squared(TetId t) const;
+  [[nodiscard]] double quality(TetId t) const;
 
   /// The star of a vertex that is in use; complete only where the vertex is not locked.
   void star(VertexId v, std::vector<TetId>& tets) const;

@@ -1,8 +1,15 @@
-// Shape of one tet: the worst dihedral angle for guards, a smooth energy for moves.
+// Shape of one tet: the quality that guards bound, and a smooth energy for moves.
 //
 // Notation: sine_squared  the smallest squared sine of a tet's six dihedral angles, so that 20 and 160
 // degrees are
-//                         equally bad; -1 for a tet without volume or turned inside out.
+//                         equally bad;
+//           mean ratio    12 (3 V)^(2/3) / E with V the volume and E the sum of the squared edge lengths: 1
+//           for the
+//                         regular tet, 0 for a flat one (Liu and Joe, BIT 34, 1994);
+//           quality       the smaller of sine_squared and kMeanRatioShare (mean ratio)^1.5; -1 for a tet
+//           without
+//                         volume or turned inside out. Angles alone let pass what interpolates badly: tets
+//                         with one edge many times as long as another.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +21,12 @@
 
 namespace cbc3d {
 
-/// sin^2 of an angle in degrees: the unit of all angle guards.
-inline double sine_squared_of_deg(double angle_deg) {
+/// The factor of the mean ratio's term: a worst angle of 20 degrees is as good as a mean ratio of .30, one of
+/// 35 degrees as one of .60.
+inline constexpr double kMeanRatioShare = 0.7;
+
+/// The quality that a worst angle in degrees gives: the unit of all guards.
+inline double quality_of_deg(double angle_deg) {
   const double sine = std::sin(angle_deg * std::numbers::pi / 180);
   return sine * sine;
 }
@@ -46,6 +57,19 @@ inline double min_sine_squared(const Vec3& a, const Vec3& b, const Vec3& c, cons
                 bc.squared_norm() * (s1 * s2), bd.squared_norm() * (s1 * s3), cd.squared_norm() * (s2 * s3)});
   const double product = s0 * s1 * (s2 * s3);
   return product > 0 ? det * det * smallest / product : -1;
+}
+
+/// The quality of tet a, b, c, d. With det = 6 V, the mean ratio to the power 1.5 is 12^1.5 / 2 det / E^1.5.
+inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  constexpr double kFactor = kMeanRatioShare * 20.784609690826528;  // 12^1.5 / 2
+  const double angles = min_sine_squared(a, b, c, d);
+  if (angles <= 0) {
+    return angles;
+  }
+  const double det = (b - a).cross(c - a).dot(d - a);
+  const double edges = (b - a).squared_norm() + (c - a).squared_norm() + (d - a).squared_norm() +
+                       (c - b).squared_norm() + (d - b).squared_norm() + (d - c).squared_norm();
+  return std::min(angles, kFactor * det / (edges * std::sqrt(edges)));
 }
 
 /// The inverse mean ratio (Liu and Joe, BIT 34, 1994) to the power p = 3, with its derivatives by the first

@@ -69,8 +69,8 @@ TEST(TetShape, RegularAndFlatTets) {
   const double orientation = six(kRegular);
   const Tet t = orientation > 0 ? kRegular : Tet{kRegular[0], kRegular[2], kRegular[1], kRegular[3]};
   EXPECT_NEAR(min_sine_squared(t[0], t[1], t[2], t[3]), 8.0 / 9, 1e-12);  // the angle's cosine is 1/3
-  EXPECT_NEAR(sine_squared_of_deg(std::acos(1.0 / 3) * 180 / std::numbers::pi), 8.0 / 9, 1e-12);
-  EXPECT_NEAR(sine_squared_of_deg(20), sine_squared_of_deg(160), 1e-12);
+  EXPECT_NEAR(quality_of_deg(std::acos(1.0 / 3) * 180 / std::numbers::pi), 8.0 / 9, 1e-12);
+  EXPECT_NEAR(quality_of_deg(20), quality_of_deg(160), 1e-12);
   EXPECT_NEAR(shape_energy(t[0], t[1], t[2], t[3]), 1, 1e-12);
   EXPECT_NEAR(shape_energy(7 * t[0], 7 * t[1], 7 * t[2], 7 * t[3]), 1, 1e-12);  // of any size
   EXPECT_LT(shape_energy(t[0], t[2], t[1], t[3]), 0);
@@ -136,6 +136,30 @@ TEST(TetShape, GradientIsThatOfFiniteDifferencesAndTheHessianIsPositive) {
   }
   EXPECT_GT(checked, 100);
   EXPECT_EQ(newton_step(ShapeTerm{1, {1, 2, 3}, {}}), (Vec3{}));  // singular
+}
+
+TEST(TetQuality, IsTheSmallerOfAngleAndMeanRatio) {
+  // The regular tet: a mean ratio of 1, angles of 70.5 degrees.
+  EXPECT_NEAR(tet_quality({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}), kMeanRatioShare, 1e-12);
+  EXPECT_EQ(tet_quality({1, 1, 1}, {1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}), -1);  // inside out
+  // A flat one is bad by its angles.
+  const Vec3 top = {0, 0, 0.01};
+  EXPECT_EQ(tet_quality({1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, top),
+            min_sine_squared({1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, top));
+  // A long one is bad by its mean ratio, though no angle is below 50 degrees.
+  const std::array<Vec3, 4> needle = {Vec3{1, 0, 0}, Vec3{-0.5, std::sqrt(0.75), 0},
+                                      Vec3{-0.5, -std::sqrt(0.75), 0}, Vec3{0, 0, 30}};
+  EXPECT_GT(min_sine_squared(needle[0], needle[1], needle[2], needle[3]), quality_of_deg(50));
+  EXPECT_LT(tet_quality(needle[0], needle[1], needle[2], needle[3]), quality_of_deg(10));
+}
+
+TEST(TetQuality, ItsSecondTermIsTheMeanRatioToThePowerOneAndAHalf) {
+  const std::array<Vec3, 4> tet = {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 6}};
+  const double volume = 1;
+  const double edges = 1 + 1 + 36 + 2 + 37 + 37;
+  const double mean_ratio = 12 * std::pow(3 * volume, 2.0 / 3) / edges;
+  EXPECT_NEAR(tet_quality(tet[0], tet[1], tet[2], tet[3]), kMeanRatioShare * std::pow(mean_ratio, 1.5),
+              1e-12);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mesher/improve/local/star_quality.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
@@ -121,12 +122,18 @@ struct VertexMover {
     }
   }
 
-  /// The planes in which the neighbours on the same interface would have v, and its distance from them at x.
+  /// The planes in which the neighbours on the same interface or curve would have v, and its distance from
+  /// them at x.
   void find_flat(VertexId v, const Vec3& x) {
     flat.clear();
-    if (normal.empty() || pairs.size() != 1 || normal[v].squared_norm() == 0) {
-      return;
+    if (!normal.empty() && pairs.size() > 1) {
+      find_straight(x);
+    } else if (!normal.empty() && pairs.size() == 1 && normal[v].squared_norm() > 0) {
+      find_planes_of_neighbours(v, x);
     }
+  }
+
+  void find_planes_of_neighbours(VertexId v, const Vec3& x) {
     for (const VertexId w : surface_neighbours()) {
       const Vec3 sum = normal[v] + normal[w];
       if (normal[w].squared_norm() > 0 && sum.squared_norm() > 1) {
@@ -134,6 +141,43 @@ struct VertexMover {
         flat.push_back({m, m.dot(x - patch.mesh.point(w))});
       }
     }
+  }
+
+  /// Where v is on a curve at which materials meet: two planes along the line that joins its neighbours on
+  /// the curve, through its middle. A curve is as smooth as its vertices are near the middle of their
+  /// neighbours.
+  void find_straight(const Vec3& x) {
+    const auto ends = ends_on_curve();
+    if (!ends) {
+      return;
+    }
+    const Vec3& p = patch.mesh.point((*ends)[0]);
+    const Vec3& q = patch.mesh.point((*ends)[1]);
+    const Vec3 along = (q - p).normalized();
+    const int least = std::fabs(along.x) < std::fabs(along.y)
+                          ? (std::fabs(along.x) < std::fabs(along.z) ? 0 : 2)
+                          : (std::fabs(along.y) < std::fabs(along.z) ? 1 : 2);
+    Vec3 axis;
+    axis[least] = 1;
+    const Vec3 first = along.cross(axis).normalized();
+    for (const Vec3& across : {first, along.cross(first)}) {
+      flat.push_back({across, across.dot(x - 0.5 * (p + q))});
+    }
+  }
+
+  /// The two neighbours at edges where three facets meet or more; nothing where there are fewer or more of
+  /// them.
+  std::optional<std::array<VertexId, 2>> ends_on_curve() {
+    std::array<VertexId, 2> ends{};
+    std::size_t count = 0;
+    for (const VertexId w : surface_neighbours()) {
+      const auto facets = std::count_if(patch.facets.begin(), patch.facets.end(),
+                                        [w](const FacetAt& f) { return f.first == w || f.second == w; });
+      if (facets > 2 && count++ < 2) {
+        ends[count - 1] = w;
+      }
+    }
+    return count == 2 ? std::optional(ends) : std::nullopt;
   }
 
   [[nodiscard]] double deviation(const Vec3& x) const {
@@ -227,13 +271,24 @@ struct VertexMover {
     return step == Step::taken;
   }
 
+  /// The cap of the thinnest material at the vertex that was loaded.
+  [[nodiscard]] double smoothness_cap(const RelaxOptions& options) const {
+    double cap = options.smoothness_cap_mm;
+    for (const auto& [inner, outer] : pairs) {
+      for (const MaterialId m : {inner, outer}) {
+        cap = m < patch.smoothness_cap_mm.size() ? std::min(cap, patch.smoothness_cap_mm[m]) : cap;
+      }
+    }
+    return cap;
+  }
+
   [[nodiscard]] Weights weights_of(const RelaxOptions& options) const {
     const double weight = options.surface_weight / (patch.guards.scale_mm * patch.guards.scale_mm);
     if (flat.empty()) {
       return {weight, 0};
     }
-    return {(1 - options.smoothness) * weight,
-            options.smoothness * weight / static_cast<double>(flat.size())};
+    const auto in_a_direction = static_cast<double>(pairs.size() == 1 ? flat.size() : flat.size() / 2);
+    return {(1 - options.smoothness) * weight, options.smoothness * weight / in_a_direction};
   }
 
   /// Takes the Newton step from x, if there is one; with the smoothness where `flat` has planes.
@@ -251,7 +306,7 @@ struct VertexMover {
     for (const Plane& plane : flat) {
       add_plane_term(plane.normal, plane.offset_mm, weights.flat, sum);
     }
-    const double near_mm = flat.empty() ? patch.guards.deviation_mm : options.smoothness_cap_mm;
+    const double near_mm = flat.empty() ? patch.guards.deviation_mm : smoothness_cap(options);
     Vec3 step = newton_step(sum);
     const double length = step.norm();
     const double longest = options.max_step * std::sqrt(mean_squared_distance(link, x));
@@ -345,15 +400,15 @@ std::size_t project_far_vertices(Patch& patch, const RelaxOptions& options) {
   return moved;
 }
 
-std::size_t optimize_worst_angles(Patch& patch, double goal_sine_squared) {
+std::size_t optimize_worst_angles(Patch& patch, double goal_quality) {
   VertexMover mover(patch);
   std::size_t moved = 0;
   for (TetId t = 0; t < patch.mesh.tet_slots(); ++t) {
     if (!patch.mesh.alive(t)) {
       continue;
     }
-    for (std::size_t n = 0; n < 4 && patch.mesh.sine_squared(t) < goal_sine_squared; ++n) {
-      moved += mover.optimize_angle(patch.mesh.nodes(t)[n], goal_sine_squared) ? 1 : 0;
+    for (std::size_t n = 0; n < 4 && patch.mesh.quality(t) < goal_quality; ++n) {
+      moved += mover.optimize_angle(patch.mesh.nodes(t)[n], goal_quality) ? 1 : 0;
     }
   }
   return moved;

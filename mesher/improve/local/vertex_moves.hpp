@@ -35,6 +35,6 @@ std::size_t project_far_vertices(Patch& patch, const RelaxOptions& options);
 /// angle is below the goal, wherever that lifts the worst angle of the vertex's star. A search by steps along
 /// the steepest ascent and the axes takes the place of their linear programme. Returns the number of vertices
 /// moved.
-std::size_t optimize_worst_angles(Patch& patch, double goal_sine_squared);
+std::size_t optimize_worst_angles(Patch& patch, double goal_quality);
 
 }  // namespace cbc3d

@@ -100,7 +100,7 @@ class TrialEdits {
   /// Tries steps and undoes them; none where an angle forbids them, or where a material would vanish.
   std::optional<Outcome> outcome_of(Steps steps) {
     ++trials_;
-    const double floor = std::min(options_.goal_sine_squared, worst_angle(steps));
+    const double floor = std::min(options_.goal_quality, worst_angle(steps));
     const bool ends = end_a_material(steps);
     const DefectMeter::Scope scope = meter_.scope_of(touched_by(steps));
     apply(steps);
@@ -170,7 +170,7 @@ class TrialEdits {
   [[nodiscard]] double worst_angle(const Steps& steps) const {
     double worst = 1;
     const auto look = [&](TetId t) {
-      worst = counts(t) ? std::min(worst, worst_sine_squared(mesh_, {&t, 1})) : worst;
+      worst = counts(t) ? std::min(worst, worst_quality(mesh_, {&t, 1})) : worst;
     };
     for (const Step& step : steps) {
       if (step.tet != kNoTet) {
@@ -232,7 +232,7 @@ class TrialEdits {
     std::vector<VertexId> vertices;
     for (const Step& step : steps) {
       for (const TetId t : complex_.star(step.vertex)) {
-        if (counts(t) && worst_sine_squared(mesh_, {&t, 1}) < options_.goal_sine_squared) {
+        if (counts(t) && worst_quality(mesh_, {&t, 1}) < options_.goal_quality) {
           vertices.insert(vertices.end(), mesh_.tets[t].begin(), mesh_.tets[t].end());
         }
       }

@@ -14,7 +14,7 @@ struct DefectRemovalOptions {
   double limit_mm = 1;              ///< of distances between surfaces and boundaries, both ways
   double step_mm = 1;               ///< unit of the steps of vertices
   double largest_mm3 = 8;           ///< largest volume that is relabelled at once
-  double goal_sine_squared = 0;     ///< no tet's worst angle falls below this, or below what it was
+  double goal_quality = 0;          ///< no tet's worst angle falls below this, or below what it was
   int rounds = 4;                   ///< at most
   std::size_t most_trials = 0;      ///< trial edits in all; 0: 10,000 and one for every eight tets
   std::size_t place_trials = 8000;  ///< trial edits at one place

@@ -74,7 +74,7 @@ DefectRemovalOptions options(double limit_mm) {
   DefectRemovalOptions mend;
   mend.limit_mm = limit_mm;
   mend.step_mm = 1;
-  mend.goal_sine_squared = sine_squared_of_deg(20);
+  mend.goal_quality = quality_of_deg(20);
   return mend;
 }
 
@@ -96,7 +96,7 @@ TEST(RemoveSurfaceDefects, LumpsThatRelabellingLeavesAreMended) {
     EXPECT_EQ(far_vertices(mesh), 0U) << seed;
     EXPECT_EQ(faults(mesh), 0U) << seed;
     EXPECT_EQ(report.defects_left, 0U) << seed;
-    EXPECT_GE(worst_angle(mesh), std::min(worst, options(1).goal_sine_squared)) << seed;
+    EXPECT_GE(worst_angle(mesh), std::min(worst, options(1).goal_quality)) << seed;
   }
   EXPECT_GT(stuck, 10);
 }
@@ -206,7 +206,7 @@ TEST(RemoveSurfaceDefects, AGapThatIsInsideOutIsTurnedBack) {
   EXPECT_EQ(report.self_intersections_left, 0U);
   EXPECT_EQ(report.tets_relabelled, 0U);
   EXPECT_GT(six_volumes(mesh.points[0], mesh.points[1], mesh.points[2], mesh.points[5]), 0);
-  EXPECT_GE(worst_angle(mesh), std::min(worst, options(1).goal_sine_squared));
+  EXPECT_GE(worst_angle(mesh), std::min(worst, options(1).goal_quality));
 }
 
 /// The pancake over a tet of two materials, an inner one under the gap; and its lowest vertex elsewhere.
@@ -258,15 +258,13 @@ TEST(RemoveSurfaceDefects, TipsAcrossAGapNoLongerCut) {
     const std::vector<BoundarySample> none;
     SurfaceCover cover(none, covering, mesh.points.size(), 1);
     if (MaterialMesh copy = mesh;
-        separate_self_intersections(copy, cover, {.step_mm = 0.1, .goal_sine_squared = 0, .rounds = 0}) ==
-        0) {
+        separate_self_intersections(copy, cover, {.step_mm = 0.1, .goal_quality = 0, .rounds = 0}) == 0) {
       continue;  // this one does not reach over
     }
     const DefectRemovalReport report = remove_surface_defects(mesh, plane_at(kSize, 2.5, 10), options(1));
     EXPECT_GT(report.defects, 0U);
     EXPECT_EQ(report.self_intersections_left, 0U);
-    EXPECT_EQ(separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_sine_squared = 0, .rounds = 0}),
-              0U);
+    EXPECT_EQ(separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_quality = 0, .rounds = 0}), 0U);
     EXPECT_EQ(faults(mesh), 0U);
   }
 }

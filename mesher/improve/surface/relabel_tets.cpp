@@ -117,7 +117,7 @@ class Relabeller {
     if (!to) {
       return false;
     }
-    const double floor = std::min(options_.goal_sine_squared, worst_at(v));
+    const double floor = std::min(options_.goal_quality, worst_at(v));
     const Vec3 step = (options_.step_mm / (*to - from).norm()) * (*to - from);
     for (const double share : {0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8}) {
       mesh_.points[v] = from + share * step;
@@ -134,7 +134,7 @@ class Relabeller {
   }
 
   [[nodiscard]] double worst_at(VertexId v) const {
-    return worst_sine_squared(mesh_, complex_.star(v));
+    return worst_quality(mesh_, complex_.star(v));
   }
 
   [[nodiscard]] bool is_near_all(VertexId v) const {

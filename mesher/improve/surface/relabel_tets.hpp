@@ -20,7 +20,7 @@ namespace cbc3d {
 struct RelabelOptions {
   double step_mm = 1;      ///< unit of the steps of vertices
   double largest_mm3 = 8;  ///< largest volume that is relabelled at one place
-  double goal_sine_squared =
+  double goal_quality =
       0;           ///< where a vertex moves, no tet's worst angle falls below this, or below what it was
   int rounds = 6;  ///< at most
 };

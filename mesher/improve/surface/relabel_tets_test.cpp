@@ -133,8 +133,7 @@ TEST(RelabelTets, ATipAcrossAGapIsLeftOut) {
   EXPECT_GT(report.tets_relabelled, 0U);
   EXPECT_EQ(mesh.tets.size(), kept - report.tets_relabelled);  // out of the mesh
   EXPECT_EQ(faults(mesh), 0U);
-  EXPECT_EQ(separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_sine_squared = 0, .rounds = 0}),
-            0U);
+  EXPECT_EQ(separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_quality = 0, .rounds = 0}), 0U);
 }
 
 }  // namespace

@@ -258,7 +258,7 @@ class Retreat {
 
   bool move(VertexId v, const Vec3& inwards) {
     const Vec3 from = mesh_.points[v];
-    const double floor = std::min(options_.goal_sine_squared, worst_at(v));
+    const double floor = std::min(options_.goal_quality, worst_at(v));
     for (const double share : {1.0, 0.5, 0.25}) {
       mesh_.points[v] = from + share * options_.step_mm * inwards;
       if (cover_.may_move(v, from, mesh_.points[v]) && worst_at(v) >= floor) {
@@ -270,7 +270,7 @@ class Retreat {
   }
 
  private:
-  [[nodiscard]] double worst_at(VertexId v) const { return worst_sine_squared(mesh_, around_.of(v)); }
+  [[nodiscard]] double worst_at(VertexId v) const { return worst_quality(mesh_, around_.of(v)); }
 
   MaterialMesh& mesh_;
   const SurfaceCover& cover_;

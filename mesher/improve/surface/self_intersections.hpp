@@ -9,9 +9,9 @@
 namespace cbc3d {
 
 struct SeparationOptions {
-  double step_mm = 0.1;  ///< the step of a vertex in one round; a half or a quarter of it where that fails
-  double goal_sine_squared = 0;  ///< no tet's worst angle falls below this, or below what it was
-  int rounds = 12;               ///< at most
+  double step_mm = 0.1;     ///< the step of a vertex in one round; a half or a quarter of it where that fails
+  double goal_quality = 0;  ///< no tet's worst angle falls below this, or below what it was
+  int rounds = 12;          ///< at most
 };
 
 /// Pairs of facets that intersect or touch without sharing a vertex, or that share one and intersect away

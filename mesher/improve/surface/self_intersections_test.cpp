@@ -80,7 +80,7 @@ TEST(SeparateSelfIntersections, AnEdgeWithMoreThanAFullTurnOfTetsIsCounted) {
     std::vector<VertexId> covering;
     SurfaceCover cover(none, covering, mesh.points.size(), 1);
     const std::size_t left =
-        separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_sine_squared = 0, .rounds = 0});
+        separate_self_intersections(mesh, cover, {.step_mm = 0.1, .goal_quality = 0, .rounds = 0});
     EXPECT_EQ(left, intersecting_facets(mesh.points, outside).size() + (turn_deg > 360 ? 1 : 0)) << turn_deg;
   }
 }

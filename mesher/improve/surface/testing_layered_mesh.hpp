@@ -139,7 +139,7 @@ inline PlaneDomain layers(std::vector<BoundarySample> samples = samples_on_plane
 }
 
 inline double worst_angle(const MaterialMesh& mesh) {
-  return worst_sine_squared(mesh);
+  return worst_quality(mesh);
 }
 
 }  // namespace cbc3d::testing

@@ -13,8 +13,8 @@ struct VolumeCorrectionOptions {
       label_of;             ///< the first material of each one's label; the volumes of labels are corrected
   double tolerance = 5e-4;  ///< an error below this share of the volume is left
   double step_mm = 0.05;    ///< no vertex moves farther in one round
-  double goal_sine_squared = 0;  ///< no tet's worst angle falls below this, or below what it was
-  int rounds = 20;               ///< at most
+  double goal_quality = 0;  ///< no tet's worst angle falls below this, or below what it was
+  int rounds = 20;          ///< at most
 };
 
 /// Volume of every material, and the area of its surface.

@@ -53,12 +53,12 @@ TEST(VolumeCorrection, KeepsTheGoalOfTheAngles) {
   VolumeCorrectionOptions options;
   options.label_of = {0, 1, 2};
   options.wanted_mm3 = {0, 70, 55};
-  options.goal_sine_squared = sine_squared_of_deg(40);
+  options.goal_quality = quality_of_deg(40);
   std::vector<VertexId> covering;
   correct_volumes(mesh, SurfaceCover(kNoSamples, covering, mesh.points.size(), 1), options);
   for (const auto& n : mesh.tets) {
-    EXPECT_GE(min_sine_squared(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]),
-              options.goal_sine_squared);
+    EXPECT_GE(tet_quality(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]),
+              options.goal_quality);
   }
 }
 
