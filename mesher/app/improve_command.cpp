@@ -32,7 +32,7 @@ struct ImproveCommand {
   MeshImageOptions defaults{.improve = {.enabled = true, .repair_rounds = 12, .untangle_rounds = 6}};
   OptionSettings settings;
   double max_deviation_mm = 0;
-  bool no_decimation = false;
+  bool decimate = false;
   CommonOptions common;
 };
 
@@ -77,7 +77,7 @@ Subject read(const ImproveCommand& command) {
 ImproveOptions options_of(const ImproveCommand& command) {
   MeshImageOptions options = command.defaults;
   apply_settings(command.settings, options);
-  options.improve.only_bad = command.no_decimation;
+  options.improve.only_bad = !command.decimate;
   options.improve.keep_distances = command.max_deviation_mm == 0;
   return options.improve;
 }
@@ -159,7 +159,7 @@ nlohmann::json report_json(const ImproveCommand& command, const Subject& subject
           {"options",
            {{"min_dihedral_deg", options_of(command).min_dihedral_deg},
             {"max_deviation_mm", subject.max_deviation_mm},
-            {"decimation", !command.no_decimation},
+            {"decimation", command.decimate},
             {"image", command.image},
             {"threads", command.common.threads}}},
           {"before", measures_json(subject.before)},
@@ -204,9 +204,10 @@ void run(const ImproveCommand& command) {
 
 void add_improve_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<ImproveCommand>();
-  CLI::App* improve = app.add_subcommand(
-      "improve",
-      "the improver and decimator alone, on any labelled tet mesh, towards an image's boundaries or its own");
+  CLI::App* improve = app.add_subcommand("improve",
+                                         "the improver, and when asked the decimator, alone, on any labelled "
+                                         "tet mesh, towards an image's boundaries or "
+                                         "its own");
   improve->add_option("mesh", command->mesh, "mesh of labelled tets: .vtu, .vtk or .msh")->required();
   improve->add_option("image", command->image,
                       "label image that the mesh was made from; without it the mesh keeps its own surfaces");
@@ -221,8 +222,10 @@ void add_improve_command(CLI::App& app, int& exit_code) {
                    "diagonals, or half the mean surface edge]")
       ->type_name("MM")
       ->check(CLI::PositiveNumber);
-  improve->add_flag("--no-decimation", command->no_decimation,
-                    "repair what is below the goal and leave all else as it is");
+  improve->add_flag(
+      "--decimate,!--no-decimation", command->decimate,
+      "fit the surfaces to the boundary and thin the mesh out as well; without it what is below the goal is "
+      "repaired and all else is left as it is");
   add_report_option(*improve, command->common, "JSON file with counts, angles and volumes before and after");
   complete_command(*improve, command->common, exit_code, [command] { run(*command); });
 }

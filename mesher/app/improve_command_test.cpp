@@ -123,7 +123,8 @@ TEST_F(ImproveCommand, LiftsSliversAndKeepsLabelsVolumesAndSurfaces) {
 TEST_F(ImproveCommand, ThinsOutAMeshAndGivesTheSameBytesAtAnyThreadCount) {
   write_mesh(shaken_block(12, 0.2), at("block.vtu"));
   for (const char* threads : {"1", "2"}) {
-    ASSERT_EQ(run(at("block.vtu") + " --quiet --threads " + threads + " --out " + at("t") + threads + ".vtu")
+    ASSERT_EQ(run(at("block.vtu") + " --quiet --decimate --threads " + threads + " --out " + at("t") +
+                  threads + ".vtu")
                   .exit_code,
               0);
   }
@@ -141,7 +142,8 @@ TEST_F(ImproveCommand, FollowsAnImageInItsOwnFrame) {
                          " --preset paper --quiet --out " + at("ball.vtu"))
                             .c_str()),
             0);
-  const Outcome outcome = run(at("ball.vtu") + " " + at("ball.nrrd") + " --quiet --out " + at("out.vtu"));
+  const Outcome outcome =
+      run(at("ball.vtu") + " " + at("ball.nrrd") + " --quiet --decimate --out " + at("out.vtu"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const Mesh before = read_mesh(at("ball.vtu"));
   const Mesh after = read_mesh(at("out.vtu"));
@@ -161,8 +163,8 @@ TEST_F(ImproveCommand, UntanglesWhatIsInsideOutAndFlat) {
   mesh.points[(1 * 7 + 1) * 7 + 1] = Vec3{1, 1, 0.0};       // onto a face
   mesh.tets.add({0, 1, 1, 2}, -7);                          // a node twice
   write_mesh(mesh, at("tangled.vtu"));
-  const Outcome outcome = run(at("tangled.vtu") + " --quiet --no-decimation --out " + at("out.vtu") +
-                              " --report " + at("r.json"));
+  const Outcome outcome =
+      run(at("tangled.vtu") + " --quiet --out " + at("out.vtu") + " --report " + at("r.json"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("1 tets had a node twice"), std::string::npos) << outcome.text;
   const nlohmann::json report = nlohmann::json::parse(std::ifstream(at("r.json")));

@@ -141,6 +141,9 @@ nlohmann::json cleaning_json(const CleanReport& clean, const ImageFrame& frame) 
           {"edge_contacts", clean.contacts.edge_contacts},
           {"voxels_changed_for_contacts", clean.contacts.voxels_changed},
           {"contact_rounds", clean.contacts.rounds},
+          {"contacts_joined", clean.contacts.joined},
+          {"contacts_cut", clean.contacts.cut},
+          {"contacts_left", clean.contacts.contacts_left},
           {"regions", clean.regions.regions},
           {"labels", labels}};
 }

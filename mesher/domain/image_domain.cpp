@@ -64,24 +64,16 @@ using Neighbourhood = std::array<bool, 27>;  // of a voxel, itself at 13: which 
 
 constexpr std::size_t kCentre = 13;
 
-Neighbourhood own_around(const LabelImage& image, const Index3& at) {
-  const MaterialId own = image.at_or_background(at[0], at[1], at[2]);
-  Neighbourhood around{};
-  for (std::size_t n = 0; n < around.size(); ++n) {
-    const int s = static_cast<int>(n);
-    around[n] = image.at_or_background(at[0] + s % 3 - 1, at[1] + s / 3 % 3 - 1, at[2] + s / 9 - 1) == own;
-  }
-  return around;
+Index3 neighbour(const Index3& at, std::size_t n) {
+  const int s = static_cast<int>(n);
+  return {at[0] + s % 3 - 1, at[1] + s / 3 % 3 - 1, at[2] + s / 9 - 1};
 }
 
 /// The components of those neighbours that are (not) of the voxel's material: own ones across faces, within
 /// the 18 that share a face or an edge with it, and only such as touch it by a face; others across corners
 /// too.
 int count_pieces(const Neighbourhood& around, bool own) {
-  const auto coordinates = [](std::size_t n) {
-    const int s = static_cast<int>(n);
-    return Index3{s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1};
-  };
+  const auto coordinates = [](std::size_t n) { return neighbour({0, 0, 0}, n); };
   const auto length = [](const Index3& d) { return std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]); };
   std::array<bool, 27> seen{};
   int pieces = 0;
@@ -117,24 +109,69 @@ Index3 neighbour_across(Index3 at, std::size_t side) {
   return at;
 }
 
-/// True when a voxel is a bump on a thick part, and no topology hangs on it (Bertrand and Malandain, A new
-/// characterization of three-dimensional simple points, Pattern Recognition Letters 15, 1994): noise, not
-/// shape.
-bool is_bump_at(const LabelImage& image, const Index3& at) {
-  const Neighbourhood around = own_around(image, at);
-  for (std::size_t side = 0; side < 6; ++side) {
-    const Index3 next = neighbour_across(at, side);
-    if (image.at_or_background(next[0], next[1], next[2]) == image.at_or_background(at[0], at[1], at[2]) &&
-        is_thin_at(image, next)) {
-      return false;  // several such voxels may be a bridge, of which each alone could go
+/// The thin voxels of a slice, background's beside labels too, whose like neighbours across faces are thick.
+void add_candidates(const LabelImage& image, int k, std::vector<std::size_t>& candidates) {
+  const auto is_candidate = [&](const Index3& at) {
+    const MaterialId own = image.at(at[0], at[1], at[2]);
+    bool any_other = false;
+    bool all_thick = true;
+    for (std::size_t side = 0; side < 6; ++side) {
+      const Index3 next = neighbour_across(at, side);
+      any_other = any_other || image.at_or_background(next[0], next[1], next[2]) != own;
     }
+    if (!any_other || !is_thin_at(image, at)) {
+      return false;
+    }
+    for (std::size_t side = 0; side < 6 && all_thick; ++side) {
+      const Index3 next = neighbour_across(at, side);
+      all_thick = image.at_or_background(next[0], next[1], next[2]) != own || !is_thin_at(image, next);
+    }
+    return all_thick;
+  };
+  for (int j = 0; j < image.frame.size[1]; ++j) {
+    for (int i = 0; i < image.frame.size[0]; ++i) {
+      if (is_candidate({i, j, k})) {
+        candidates.push_back(image.frame.offset(i, j, k));
+      }
+    }
+  }
+}
+
+/// True when a voxel is simple (Bertrand and Malandain, A new characterization of three-dimensional simple
+/// points, Pattern Recognition Letters 15, 1994) with the bumps before it gone. Beside another material's
+/// bump it is not known what is to be there.
+bool is_simple(const LabelImage& image, const std::vector<std::size_t>& bumps, const Index3& at) {
+  const MaterialId own = image.at(at[0], at[1], at[2]);
+  Neighbourhood around{};
+  for (std::size_t n = 0; n < around.size(); ++n) {
+    const Index3 next = neighbour(at, n);
+    const bool is_own = image.at_or_background(next[0], next[1], next[2]) == own;
+    const bool was_bump =
+        image.frame.contains(next[0], next[1], next[2]) &&
+        std::binary_search(bumps.begin(), bumps.end(), image.frame.offset(next[0], next[1], next[2]));
+    if (was_bump && !is_own) {
+      return false;
+    }
+    around[n] = is_own && !was_bump;
   }
   return count_pieces(around, true) == 1 && count_pieces(around, false) == 1;
 }
 
-/// True when a voxel is in no 2x2x2 block of its own material, and no bump.
-bool is_fragile_at(const LabelImage& image, const Index3& at) {
-  return is_thin_at(image, at) && !is_bump_at(image, at);
+std::vector<std::size_t> find_bumps(const LabelImage& image) {
+  std::vector<std::vector<std::size_t>> of_slice(static_cast<std::size_t>(image.frame.size[2]));
+#pragma omp parallel for schedule(dynamic)
+  for (int k = 0; k < image.frame.size[2]; ++k) {
+    add_candidates(image, k, of_slice[static_cast<std::size_t>(k)]);
+  }
+  std::vector<std::size_t> bumps;
+  for (const auto& slice : of_slice) {
+    for (const std::size_t offset : slice) {
+      if (is_simple(image, bumps, image.frame.index_of(offset))) {
+        bumps.push_back(offset);
+      }
+    }
+  }
+  return bumps;
 }
 
 }  // namespace
@@ -181,13 +218,13 @@ bool ImageDomain::is_thin(const BoundarySample& sample) const {
     at[static_cast<std::size_t>(axis)] =
         static_cast<int>(std::lround(sample.centre()[axis] / image_.frame.spacing_mm[axis]));
   }
-  if (is_fragile_at(image_, at)) {
+  if (is_thin_voxel(at)) {
     return true;
   }
   for (std::size_t side = 0; side < 6 && sample.other == kBackground; ++side) {
     Index3 next = at;
     next[side / 2] += side % 2 == 0 ? 1 : -1;
-    if (image_.at_or_background(next[0], next[1], next[2]) == sample.other && is_fragile_at(image_, next)) {
+    if (image_.at_or_background(next[0], next[1], next[2]) == sample.other && is_thin_voxel(next)) {
       return true;
     }
   }
@@ -195,7 +232,13 @@ bool ImageDomain::is_thin(const BoundarySample& sample) const {
 }
 
 bool ImageDomain::is_thin_voxel(const Index3& at) const {
-  return is_fragile_at(image_, at);
+  return is_thin_at(image_, at) && !is_bump(at);
+}
+
+bool ImageDomain::is_bump(const Index3& at) const {
+  std::call_once(bumps_once_, [this] { bumps_ = find_bumps(image_); });
+  return image_.frame.contains(at[0], at[1], at[2]) &&
+         std::binary_search(bumps_.begin(), bumps_.end(), image_.frame.offset(at[0], at[1], at[2]));
 }
 
 std::optional<Vec3> ImageDomain::nearest_boundary(const Vec3& x, MaterialId material) const {
@@ -215,7 +258,7 @@ double ImageDomain::clamped(double value, const std::array<signed char, 64>& sid
   if (!is_thin_on(side, at)) {
     return own * std::max(own * value, options_.hold);
   }
-  return is_bump_at(image_, voxel) ? value : own * std::max(own * value, options_.hold_thin);
+  return is_bump(voxel) ? value : own * std::max(own * value, options_.hold_thin);
 }
 
 bool ImageDomain::corners(const Index3& low, MaterialId a, MaterialId b,

@@ -42,6 +42,11 @@ class ImageDomain : public Domain {
   [[nodiscard]] bool is_thin(const BoundarySample& sample) const override;
   /// The same of one voxel, which may be of background.
   [[nodiscard]] bool is_thin_voxel(const Index3& at) const;
+  /// True for a voxel that is in no 2x2x2 block of its own material, has none but such neighbours across its
+  /// faces that are, and could take its surroundings' material without a change of topology, after those
+  /// before it in the image that can: noise, not shape. The smooth boundary cuts bumps off; they are not
+  /// thin.
+  [[nodiscard]] bool is_bump(const Index3& at) const;
 
   /// The material whose smoothed share is largest at x, held at the voxels' centres as the field is.
   [[nodiscard]] MaterialId material_at(const Vec3& x) const override;
@@ -70,6 +75,8 @@ class ImageDomain : public Domain {
   mutable std::once_flag voxels_once_;
   mutable MaterialVoxels voxels_;
   mutable std::vector<double> volumes_mm3_;
+  mutable std::once_flag bumps_once_;
+  mutable std::vector<std::size_t> bumps_;  // offsets, ascending
 };
 
 }  // namespace cbc3d

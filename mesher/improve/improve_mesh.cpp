@@ -58,7 +58,11 @@ class Improver {
                .smoothness_cap_mm = mm_.smoothness_cap},
         longest_mm_(
             values_of_materials(domain.labels(), options.size_mm, std::numeric_limits<double>::infinity())),
-        offsets_(domain) {}
+        offsets_(domain) {
+    for (double& longest : longest_mm_) {
+      longest *= kLongestPerMean;
+    }
+  }
 
   /// The table of contents of the improvement; ALGORITHM.md explains each line.
   ImproveReport run() {
@@ -84,13 +88,14 @@ class Improver {
   }
 
  private:
-  static constexpr double kMarginDeg = 1e-3;     // rounding when the mesh is written must not undo the goal
-  static constexpr double kGoodDeg = 35;         // edge removal is tried at tets worse than this
-  static constexpr double kLongestGrowth = 5;    // of an edge in a collapse
-  static constexpr double kVolumeShare = 0.05;   // largest loss of a material around a collapse
-  static constexpr int kSettlings = 10;          // at most
-  static constexpr int kCorrections = 6;         // of the volumes in the last stage, at most
-  static constexpr double kLargestLack = 0.004;  // share of a volume; below it no correction is needed
+  static constexpr double kMarginDeg = 1e-3;      // rounding when the mesh is written must not undo the goal
+  static constexpr double kGoodDeg = 35;          // edge removal is tried at tets worse than this
+  static constexpr double kLongestPerMean = 1.4;  // of edges in an even mesh
+  static constexpr double kLongestGrowth = 5;     // of an edge in a collapse
+  static constexpr double kVolumeShare = 0.05;    // largest loss of a material around a collapse
+  static constexpr int kSettlings = 10;           // at most
+  static constexpr int kCorrections = 6;          // of the volumes in the last stage, at most
+  static constexpr double kLargestLack = 0.004;   // share of a volume; below it no correction is needed
   static constexpr double kLargestCells =
       8;  // largest volume relabelled at one place, in cells of the domain
   static constexpr double kSmallVolumes = 60;      // volumes below this many of those are not waited for

@@ -30,7 +30,8 @@ struct ImproveOptions {
   /// The smoothness moves no vertex farther from the boundary; 0: kSmoothnessCap scales, the deviation at
   /// most.
   double smoothness_cap_mm = 0;
-  std::map<Label, double> size_mm;  ///< the decimation makes no edge of these labels longer
+  /// The mean length of edges of these labels, about: the decimation makes none longer than 1.4 times that.
+  std::map<Label, double> size_mm;
   /// No inner vertex vanishes where that leaves edges longer than those of the nearest interface and about
   /// this times the distance from there (graded_sizes). Interfaces are decimated as ever. Below 0: no limit.
   double gradation = 1;

@@ -159,7 +159,9 @@ double worst_growth(const MaterialMesh& mesh, double gradation) {
 
 TEST(ImproveMesh, GradationBoundsTheGrowthAndCostsTets) {
   const LabelImage image = ball();
-  const MaterialMesh free = improved(image, {}, 0.9);
+  ImproveOptions ungraded;
+  ungraded.gradation = -1;
+  const MaterialMesh free = improved(image, ungraded, 0.9);
   const double growth = worst_growth(free, 0.2);
   std::size_t tets = free.tets.size();
   for (const double gradation : {0.8, 0.2}) {

@@ -127,6 +127,16 @@ void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
                               std::to_string(clean.removed.voxels_removed) +
                               " voxels) below region_tolerance became background");
   }
+  if (clean.contacts.joined + clean.contacts.cut > 0) {
+    report.warnings.push_back(
+        "voxels of a label touched at edges or corners alone: " + std::to_string(clean.contacts.joined) +
+        " such places joined and " + std::to_string(clean.contacts.cut) + " cut, by " +
+        std::to_string(clean.contacts.voxels_changed) + " voxels, so that every label has one topology");
+  }
+  if (clean.contacts.contacts_left > 0) {
+    report.warnings.push_back(std::to_string(clean.contacts.contacts_left) +
+                              " places are left where voxels of a label touch at edges or corners alone");
+  }
   for (const LabelChange& change : clean.labels) {
     if (change.voxels_before > 0 && change.voxels_after == 0) {
       report.warnings.push_back("label " + std::to_string(change.label) + " (" +

@@ -196,22 +196,6 @@ std::vector<OptionRow> lattice_rows() {
            .scales_with_voxels = true},
           [](auto& o) -> auto& { return o.refine.max_distance_mm; }, kNotNegative,
           [](MeshImageOptions& o) { o.improve.reach_mm = o.refine.max_distance_mm; }),
-      count({.name = "elements",
-             .group = kGroup,
-             .symbol = "N",
-             .text = "about this many elements: all lengths of the preset shrink or grow together until "
-                     "there are as "
-                     "many; 0: as many as they give"},
-            [](auto& o) -> auto& { return o.elements; }, {.lowest = 0, .highest = 1e9}),
-      number(
-          {.name = "edge-length",
-           .group = kGroup,
-           .symbol = "MM",
-           .unit = "mm",
-           .key = "edge_length_mm",
-           .text = "edges of surfaces are about this long: the same by a length",
-           .unset_text = "as long as max-distance and deviation let them be"},
-          [](auto& o) -> auto& { return o.edge_length_mm; }, kPositive),
       label_numbers(
           {.name = "size",
            .group = kGroup,
@@ -249,6 +233,21 @@ std::vector<OptionRow> improvement_rows() {
            .text = "stop before the improvement",
            .negates_field = true},
           [](auto& o) -> auto& { return o.improve.enabled; }),
+      count({.name = "elements",
+             .group = kGroup,
+             .symbol = "N",
+             .text = "about this many elements: all lengths of the preset shrink or grow together until "
+                     "there are as many; 0: as many as they give"},
+            [](auto& o) -> auto& { return o.elements; }, {.lowest = 0, .highest = 1e9}),
+      number(
+          {.name = "edge-length",
+           .group = kGroup,
+           .symbol = "MM",
+           .unit = "mm",
+           .key = "edge_length_mm",
+           .text = "edges of surfaces are about this long: the same by a length",
+           .unset_text = "as long as max-distance and deviation let them be"},
+          [](auto& o) -> auto& { return o.edge_length_mm; }, kPositive),
       count(
           {.name = "decimation-rounds",
            .group = kGroup,

@@ -141,7 +141,7 @@ TEST(OptionTable, DefaultsAreThoseOfThePreset) {
   EXPECT_EQ(of_quality("lattice-spacing"), "ten times the mean voxel spacing");
   EXPECT_EQ(of_quality("gradation"), "1");
   EXPECT_EQ(of_quality("size"), "no limit");
-  EXPECT_EQ(of_quality("no-manifold-voxels"), "true");
+  EXPECT_EQ(of_quality("no-manifold-voxels"), "false");
   EXPECT_EQ(of_quality("target-position"), "voxel-faces");
   for (const OptionRow& row : option_table()) {
     const std::string text = default_text(row, quality, 7);

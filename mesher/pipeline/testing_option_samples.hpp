@@ -18,6 +18,8 @@ inline const std::map<std::string, std::string>& option_samples() {
       {"finest-spacing", "5"},
       {"max-distance", "1.25"},
       {"size", "2=3.5"},
+      {"elements", "12000"},
+      {"edge-length", "1.5"},
       {"topology-checks", "true"},
       {"mixed", "true"},
       {"no-improve", "true"},

@@ -140,8 +140,8 @@ TEST(TetShape, GradientIsThatOfFiniteDifferencesAndTheHessianIsPositive) {
 
 TEST(TetQuality, IsTheSmallerOfAngleAndMeanRatio) {
   // The regular tet: a mean ratio of 1, angles of 70.5 degrees.
-  EXPECT_NEAR(tet_quality({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}), kMeanRatioShare, 1e-12);
-  EXPECT_EQ(tet_quality({1, 1, 1}, {1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}), -1);  // inside out
+  EXPECT_NEAR(tet_quality({1, 1, 1}, {1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}), kMeanRatioShare, 1e-12);
+  EXPECT_EQ(tet_quality({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}), -1);  // inside out
   // A flat one is bad by its angles.
   const Vec3 top = {0, 0, 0.01};
   EXPECT_EQ(tet_quality({1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, top),

@@ -45,12 +45,15 @@ TEST(VertexMoves, ProjectFarVerticesBringsThemToTheBoundary) {
 
 /// The mean angle between neighbouring edges of the curve where two labels and the background meet, degrees.
 double mean_kink_deg(const Trial& trial) {
-  const auto sets = trial.sets();
-  std::map<std::array<VertexId, 2>, MaterialSet> edges;
+  const auto neighbours = tet_neighbours(trial.mesh.tets, trial.mesh.points.size());
+  std::map<std::array<VertexId, 2>, MaterialSet>
+      edges;  // of the outside, with the materials of its facets there
   for (std::size_t t = 0; t < trial.mesh.tets.size(); ++t) {
-    for (const VertexId a : trial.mesh.tets[t]) {
-      for (const VertexId b : trial.mesh.tets[t]) {
-        if (a < b && sets[a].size > 2 && sets[b].size > 2) edges[{a, b}].add(trial.mesh.materials[t]);
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (std::size_t c = 0; neighbours[t][n] == kNoTet && c < 3; ++c) {
+        const VertexId a = trial.mesh.tets[t][kTetFace[n][c]];
+        const VertexId b = trial.mesh.tets[t][kTetFace[n][(c + 1) % 3]];
+        edges[{std::min(a, b), std::max(a, b)}].add(trial.mesh.materials[t]);
       }
     }
   }
