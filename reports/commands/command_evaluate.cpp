@@ -12,6 +12,7 @@
 #include "mesher/core/terminal_progress.hpp"
 #include "metrics/evaluate.hpp"
 #include "reports/commands/commands.hpp"
+#include "reports/results/evaluation_text.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -26,17 +27,6 @@ struct EvaluateCommandOptions {
   bool quiet = false;
   metrics::EvaluateOptions metrics;
 };
-
-/// The figures of a section that are single numbers or flags, one per line.
-void print_section(const std::string& section, const nlohmann::json& figures) {
-  std::cout << section << '\n';
-  for (const auto& [key, value] : figures.items()) {
-    if (!value.is_structured() ||
-        (value.is_array() && value.size() <= 8 && !value.empty() && !value[0].is_structured())) {
-      std::cout << "  " << key << ": " << value.dump() << '\n';
-    }
-  }
-}
 
 /// What the image is, for the table of image data.
 nlohmann::json image_section(const LabelImage& image) {
@@ -97,15 +87,7 @@ int evaluate(const EvaluateCommandOptions& options) {
     write_json(options.json, evaluation);
   }
   if (!options.quiet) {
-    for (const auto& [section, figures] : evaluation.items()) {
-      if (figures.is_object() && section != "image") {
-        print_section(section, figures);
-      }
-    }
-    std::cout << "faults: " << evaluation.at("faults").size() << '\n';
-    for (const nlohmann::json& fault : evaluation.at("faults")) {
-      std::cout << "  " << fault.get<std::string>() << '\n';
-    }
+    std::cout << evaluation_text(evaluation);
   }
   return kExitSuccess;
 }
