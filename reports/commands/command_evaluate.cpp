@@ -13,6 +13,9 @@
 #include "metrics/evaluate.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/results/evaluation_text.hpp"
+#include "reports/run/runner.hpp"
+#include "reports/run/solve.hpp"
+#include "reports/run/workplace.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -25,6 +28,8 @@ struct EvaluateCommandOptions {
   std::uint64_t phantom_seed = 0;
   int threads = 0;
   bool quiet = false;
+  bool solve = false;
+  double solve_timeout_s = RunOptions{}.timeout_s;
   metrics::EvaluateOptions metrics;
 };
 
@@ -67,6 +72,15 @@ void write_json(const std::string& path, const nlohmann::json& evaluation) {
   file.commit();
 }
 
+nlohmann::json solver_section(const EvaluateCommandOptions& options) {
+  return solve({.command = solve_command(bin_dir()),
+                .mesh = options.mesh,
+                .image = options.image,
+                .threads = options.threads,
+                .timeout_s = options.solve_timeout_s,
+                .memory_limit_bytes = RunOptions{}.memory_limit_bytes});
+}
+
 int evaluate(const EvaluateCommandOptions& options) {
   if (!options.json.empty()) {
     require_writable(options.json);
@@ -80,6 +94,10 @@ int evaluate(const EvaluateCommandOptions& options) {
   const LabelImage image = read_label_image(options.image);
   nlohmann::json evaluation = metrics::evaluate(mesh, image, judged, progress);
   evaluation["image"] = image_section(image);
+  if (options.solve) {
+    progress.step("solving", 1);
+    evaluation["solver"] = solver_section(options);
+  }
   constexpr double kMegabytesPerByte = 1e-6;
   evaluation["evaluation_peak_mb"] = kMegabytesPerByte * static_cast<double>(process_peak_rss_bytes());
   progress.done();
@@ -133,6 +151,13 @@ Command add_evaluate_command(CLI::App& app) {
       ->add_flag("--smooth,!--no-smooth", options->metrics.smooth,
                  "distances to the smooth surfaces between the labels too")
       ->default_str("on");
+  parser->add_flag(
+      "--solve", options->solve,
+      "solve Poisson's equation on the mesh with elements of order 1 and 2 (cbc3d-solve, a process of "
+      "its own) and give the errors; what is not solved is null with the reason");
+  parser->add_option("--solve-timeout", options->solve_timeout_s, "time limit of that process, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   add_phantom_options(*parser, options);
   parser->add_option("--threads", options->threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)

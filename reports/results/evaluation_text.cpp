@@ -210,7 +210,7 @@ std::string summary_of(const json& evaluation) {
   const json& elements = at(evaluation, "summary.elements");
   std::string line = counted(elements.is_number() ? elements.get<std::int64_t>() : 0, "element", "elements");
   add(line, evaluation, "mean ratio 1 %", metric_id("quality.mean_ratio.p1"));
-  add(line, evaluation, "median", metric_id("quality.mean_ratio.median"));
+  add(line, evaluation, "mean ratio median", metric_id("quality.mean_ratio.median"));
   add(line, evaluation, "facet angles rms", metric_id("surface.facet_angle_rms_deg"));
   add(line, evaluation, "HD", metric_id("summary.hausdorff_mm"), "summary.hausdorff_label");
   for (const json& row : at(evaluation, "summary.worst_labels")) {

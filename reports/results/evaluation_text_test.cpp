@@ -75,7 +75,8 @@ TEST(EvaluationText, SaysFiguresLabelsTopologyAndPlaces) {
 TEST(EvaluationText, SummaryIsOneLine) {
   EXPECT_EQ(
       summary_of(evaluation()),
-      "49,593 elements; mean ratio 1 % 0.120; median 0.485; facet angles rms 28.0 deg; HD 3.09 mm (label 1); "
+      "49,593 elements; mean ratio 1 % 0.120; mean ratio median 0.485; facet angles rms 28.0 deg; HD 3.09 mm "
+      "(label 1); "
       "label 1: Dice 0.5400, volume error +0.03 %; label 8: Dice 0.0000, volume error -100.00 %; 3 topology "
       "differences; 1 fault");
 }
