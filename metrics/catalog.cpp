@@ -34,18 +34,6 @@ std::string gate_text(const Metric& metric) {
                                  number_text(gate->absolute);
 }
 
-std::string target_text(const Target& target) {
-  switch (target.limit) {
-    case Limit::at_least:
-      return "at least " + number_text(target.value);
-    case Limit::at_most:
-      return "at most " + number_text(target.value);
-    case Limit::none:
-      break;
-  }
-  return "";
-}
-
 }  // namespace
 
 std::optional<double> element_count(const Figures& figures) {
@@ -62,6 +50,11 @@ std::optional<double> element_count(const Figures& figures) {
 std::optional<double> elements_per_second(const Figures& figures) {
   const auto elements = element_count(figures), seconds = figures[metric_id("time_s.mesh")];
   return elements && seconds && *seconds > 0 ? std::optional(*elements / *seconds) : std::nullopt;
+}
+
+std::optional<double> dice_shortfall(const Figures& figures) {
+  const auto dice = figures[metric_id("fidelity.dice_min")];
+  return dice ? std::optional(1 - *dice) : std::nullopt;
 }
 
 std::optional<double> time_ratio(const Figures& figures) {
@@ -98,20 +91,40 @@ bool is_shown_in(const Metric& metric, std::string_view table) {
   return false;
 }
 
-bool misses_target(const Metric& metric, double value) {
-  const Target& target = metric.target;
-  return (target.limit == Limit::at_least && value < target.value) ||
-         (target.limit == Limit::at_most && std::abs(value) > target.value);
+const char* words(Purpose purpose) {
+  switch (purpose) {
+    case Purpose::distance:
+      return "distance";
+    case Purpose::smooth:
+      return "smooth";
+    case Purpose::shape:
+      return "shape";
+    case Purpose::solver:
+      return "solver";
+    case Purpose::topology:
+      return "topology";
+    case Purpose::labels:
+      return "labels";
+    case Purpose::count:
+      return "count";
+    case Purpose::time:
+      return "time";
+    case Purpose::hard_fault:
+      return "hard fault";
+    case Purpose::none:
+      break;
+  }
+  return "";
 }
 
 std::string catalog_text() {
   std::string text =
-      "| key | figure | worse | gate | target | tables | per label |\n|---|---|---|---|---|---|---|\n";
+      "| key | figure | worse | gate | purpose | tables | per label |\n|---|---|---|---|---|---|---|\n";
   for (const Metric& metric : kCatalog) {
     const std::string unit = metric.unit.empty() ? "" : " (" + std::string(metric.unit) + ")";
     text += "| `" + std::string(metric.key) + "` | " + std::string(words(metric)) + unit + " | " +
-            worse_text(metric.worse) + " | " + gate_text(metric) + " | " + target_text(metric.target) +
-            " | " + std::string(metric.tables) + " | " + (metric.per_label.empty() ? "" : "yes") + " |\n";
+            worse_text(metric.worse) + " | " + gate_text(metric) + " | " + words(metric.purpose) + " | " +
+            std::string(metric.tables) + " | " + (metric.per_label.empty() ? "" : "yes") + " |\n";
   }
   return text;
 }

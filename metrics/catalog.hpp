@@ -29,18 +29,17 @@ inline constexpr Tolerance kCounts{"counts", 0.05,
                                    10};  ///< of meshers that are not deterministic; else exact
 inline constexpr Tolerance kAngle{"angle", 0.01, 0.5};
 inline constexpr Tolerance kJacobian{"jacobian", 0.02, 0.005};
+inline constexpr Tolerance kShape{"shape", 0.02, 0.005};  ///< of measures of which 1 is best
+inline constexpr Tolerance kRatio{"ratio", 0.05, 0.1};    ///< of two lengths or sizes, at least 1
 inline constexpr Tolerance kDistance{"distance", 0.05, 0.01};
 inline constexpr Tolerance kDice{"dice", 0.002, 0.002};
 inline constexpr Tolerance kVolume{"volume", 0.05, 0.1};
 inline constexpr Tolerance kMemory{"memory", 0.5, 16777216};
 inline constexpr Tolerance kTime{"time", 0.4, 0.25};
 
-/// What a good mesh should have; it is compared with the figure's magnitude.
-enum class Limit { none, at_least, at_most };
-struct Target {
-  Limit limit = Limit::none;
-  double value = 0;
-};
+/// What a figure of the table `targets` is about. Hard faults should be 0; all others are compared with the
+/// best mesher's.
+enum class Purpose { none, distance, smooth, shape, solver, topology, labels, count, time, hard_fault };
 
 /// Where a figure comes from.
 enum class Source {
@@ -64,9 +63,9 @@ struct Metric {
   int decimals = 0;
   Worse worse = Worse::neither;
   const Tolerance* gate = nullptr;  ///< null: not gated
-  Target target = {};               ///< a figure beyond it is marked
   std::string_view tables = {};     ///< names of the tables that show it, separated by blanks
   std::string_view chart = {};      ///< file name of a chart over all cases; empty: none
+  Purpose purpose = Purpose::none;  ///< none: not in the table `targets`
   bool logarithmic = false;         ///< axis of that chart
   std::string_view per_label = {};  ///< path of the same figure in the lists of labels; empty: none
   std::string_view worst_label =
@@ -80,21 +79,18 @@ struct Metric {
 
 std::optional<double> element_count(const Figures& figures);
 std::optional<double> elements_per_second(const Figures& figures);
+/// By how much the lowest Dice of a label falls short of 1.
+std::optional<double> dice_shortfall(const Figures& figures);
 /// CPU time over that of the reference work done beside the job, so that a slower or busier machine does not
 /// count. The system's CPU time is left out: it is the price of memory pages, which the reference work does not
 /// ask for, and peak memory is gated by itself.
 std::optional<double> time_ratio(const Figures& figures);
 
-inline constexpr Target kLeastAngle{Limit::at_least, 20};
-inline constexpr Target kMostDiagonals{Limit::at_most, 1.1};
-inline constexpr Target kMostVolumeError{Limit::at_most, 1};
-inline constexpr Target kNothing{Limit::at_most, 0};
-
 // clang-format off
 inline constexpr Metric kCatalog[] = {
     // The mesh
-    {.key = "counts.vertices", .name = "vertices", .worse = Worse::other, .gate = &kCounts, .tables = "vertices",
-     .published = "vertices"},
+    {.key = "counts.vertices", .name = "vertices", .worse = Worse::other, .gate = &kCounts,
+     .tables = "vertices targets", .purpose = Purpose::count, .published = "vertices"},
     {.key = "counts.tets", .name = "tetrahedra", .worse = Worse::other, .gate = &kCounts,
      .tables = "element_count vertices", .published = "tets"},
     {.key = "counts.pyramids", .name = "pyramids", .worse = Worse::other, .gate = &kCounts, .tables = "vertices",
@@ -117,6 +113,78 @@ inline constexpr Metric kCatalog[] = {
     {.key = "quality.inverted", .name = "inverted elements", .worse = Worse::higher, .gate = &kExact,
      .tables = "element_quality", .per_label = "quality.per_label.inverted"},
 
+    // Shape of the elements as an interpolation error sees it, and gradation (element_shape.hpp, gradation.hpp)
+    {.key = "quality.mean_ratio.min", .name = "mean ratio, smallest", .decimals = 3, .worse = Worse::lower,
+     .gate = &kShape, .tables = "shape", .per_label = "quality.per_label.mean_ratio.min"},
+    {.key = "quality.mean_ratio.p0_1", .name = "mean ratio, .1 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.mean_ratio.p0_1"},
+    {.key = "quality.mean_ratio.p1", .name = "mean ratio, 1 %", .decimals = 3,
+     .worse = Worse::lower, .gate = &kShape, .tables = "shape targets", .purpose = Purpose::shape,
+     .per_label = "quality.per_label.mean_ratio.p1"},
+    {.key = "quality.mean_ratio.p5", .name = "mean ratio, 5 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.mean_ratio.p5"},
+    {.key = "quality.mean_ratio.median", .name = "mean ratio, median", .decimals = 3,
+     .worse = Worse::lower, .gate = &kShape, .tables = "shape targets", .purpose = Purpose::shape,
+     .per_label = "quality.per_label.mean_ratio.median"},
+    {.key = "quality.mean_ratio.below_0_3_percent",
+     .name = "mean ratio below .3", .long_name = "share of elements whose mean ratio is below .3", .unit = "%",
+     .decimals = 2, .worse = Worse::higher, .tables = "shape targets", .purpose = Purpose::shape,
+     .per_label = "quality.per_label.mean_ratio.below_0_3_percent"},
+    {.key = "quality.radius_ratio.min", .name = "radius ratio, smallest", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.radius_ratio.min"},
+    {.key = "quality.radius_ratio.p0_1", .name = "radius ratio, .1 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.radius_ratio.p0_1"},
+    {.key = "quality.radius_ratio.p1", .name = "radius ratio, 1 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.radius_ratio.p1"},
+    {.key = "quality.radius_ratio.p5", .name = "radius ratio, 5 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.radius_ratio.p5"},
+    {.key = "quality.radius_ratio.median", .name = "radius ratio, median", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.radius_ratio.median"},
+    {.key = "quality.radius_ratio.below_0_3_percent", .name = "radius ratio below .3",
+     .long_name = "share of elements whose radius ratio is below .3", .unit = "%", .decimals = 2,
+     .worse = Worse::higher, .per_label = "quality.per_label.radius_ratio.below_0_3_percent"},
+    {.key = "quality.height_ratio.min", .name = "height ratio, smallest", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.height_ratio.min"},
+    {.key = "quality.height_ratio.p0_1", .name = "height ratio, .1 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.height_ratio.p0_1"},
+    {.key = "quality.height_ratio.p1", .name = "height ratio, 1 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.height_ratio.p1"},
+    {.key = "quality.height_ratio.p5", .name = "height ratio, 5 %", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.height_ratio.p5"},
+    {.key = "quality.height_ratio.median", .name = "height ratio, median", .decimals = 3, .worse = Worse::lower,
+     .per_label = "quality.per_label.height_ratio.median"},
+    {.key = "quality.height_ratio.below_0_3_percent", .name = "height ratio below .3",
+     .long_name = "share of elements whose height ratio is below .3", .unit = "%", .decimals = 2,
+     .worse = Worse::higher, .per_label = "quality.per_label.height_ratio.below_0_3_percent"},
+    {.key = "quality.edge_ratio.median", .name = "edge ratio, median",
+     .long_name = "longest over shortest edge of an element, median", .decimals = 2, .worse = Worse::higher,
+     .tables = "shape", .per_label = "quality.per_label.edge_ratio.median"},
+    {.key = "quality.edge_ratio.p99",
+     .name = "edge ratio, 99 %", .long_name = "longest over shortest edge of an element, 99 %", .decimals = 2,
+     .worse = Worse::higher, .gate = &kRatio, .tables = "shape targets", .purpose = Purpose::shape,
+     .per_label = "quality.per_label.edge_ratio.p99"},
+    {.key = "quality.edge_ratio.max", .name = "edge ratio, largest",
+     .long_name = "longest over shortest edge of an element, largest", .decimals = 2, .worse = Worse::higher,
+     .gate = &kRatio, .tables = "shape", .per_label = "quality.per_label.edge_ratio.max"},
+    {.key = "quality.neighbour_size_ratio.p99", .name = "size ratio of neighbours, 99 %",
+     .decimals = 2, .worse = Worse::higher, .gate = &kRatio, .tables = "shape targets", .purpose = Purpose::shape},
+    {.key = "quality.neighbour_size_ratio.max", .name = "size ratio of neighbours, largest", .decimals = 2,
+     .worse = Worse::higher, .tables = "shape"},
+    {.key = "quality.vertex_edge_ratio.p99", .name = "edge ratio at a vertex, 99 %",
+     .long_name = "longest over shortest edge at a vertex, 99 %", .decimals = 2, .worse = Worse::higher,
+     .tables = "shape"},
+    {.key = "quality.vertex_edge_ratio.max", .name = "edge ratio at a vertex, largest",
+     .long_name = "longest over shortest edge at a vertex, largest", .decimals = 2, .worse = Worse::higher},
+    {.key = "quality.valence_median", .name = "edges at a vertex, median", .worse = Worse::higher,
+     .tables = "shape"},
+    {.key = "quality.valence_p99", .name = "edges at a vertex, 99 %", .worse = Worse::higher, .tables = "shape"},
+    {.key = "quality.valence_max", .name = "edges at a vertex, largest", .worse = Worse::higher,
+     .gate = &kCounts, .tables = "shape targets", .purpose = Purpose::shape},
+    {.key = "quality.inner_vertices_percent", .name = "vertices inside",
+     .long_name = "share of vertices that are not on the outer surface", .unit = "%", .decimals = 1,
+     .tables = "shape", .per_label = "quality.per_label.inner_vertices_percent"},
+
+    // Whether it is a mesh, and of the topology of the image
     {.key = "topology.conforming", .name = "conforming", .worse = Worse::lower, .gate = &kExact},
     {.key = "topology.non_manifold_edges", .name = "non-manifold edges", .worse = Worse::higher, .gate = &kExact,
      .per_label = "topology.per_label.non_manifold_edges"},
@@ -124,17 +192,99 @@ inline constexpr Metric kCatalog[] = {
      .gate = &kExact, .per_label = "topology.per_label.non_manifold_vertices"},
     {.key = "topology.self_intersections", .name = "self-intersections", .worse = Worse::higher, .gate = &kExact,
      .tables = "element_quality", .per_label = "topology.per_label.self_intersections"},
+    {.key = "topology.differences", .name = "topology differences",
+     .long_name = "parts, tunnels and cavities that the mesh has more or fewer than the image, over all labels",
+     .worse = Worse::higher, .gate = &kExact, .tables = "element_quality",
+     .per_label = "topology.per_label.differences"},
     {.key = "topology.components", .name = "components", .worse = Worse::other, .gate = &kCounts,
      .per_label = "topology.per_label.components"},
 
+    // How the surface looks: of all labels as one (surface_shape.hpp)
+    {.key = "surface.facet_angle_rms_deg",
+     .name = "angle between facets, rms", .long_name = "angle between neighbouring facets, rms", .unit = "deg",
+     .decimals = 1, .worse = Worse::higher, .gate = &kAngle, .tables = "surface targets",
+     .purpose = Purpose::smooth, .per_label = "surface.per_label.facet_angle_rms_deg"},
+    {.key = "surface.facet_angle_p95_deg", .name = "angle between facets, 95 %",
+     .long_name = "angle between neighbouring facets, 95 %", .unit = "deg", .decimals = 1, .worse = Worse::higher,
+     .tables = "surface", .per_label = "surface.per_label.facet_angle_p95_deg"},
+    {.key = "surface.facet_angle_p99_deg", .name = "angle between facets, 99 %",
+     .long_name = "angle between neighbouring facets, 99 %", .unit = "deg", .decimals = 1, .worse = Worse::higher,
+     .tables = "surface", .per_label = "surface.per_label.facet_angle_p99_deg"},
+    {.key = "surface.facet_angle_max_deg", .name = "angle between facets, largest",
+     .long_name = "angle between neighbouring facets, largest", .unit = "deg", .decimals = 1,
+     .worse = Worse::higher, .per_label = "surface.per_label.facet_angle_max_deg"},
+    {.key = "surface.facets_over_60_deg", .name = "pairs of facets over 60 deg",
+     .long_name = "pairs of neighbouring facets at more than 60 degrees", .worse = Worse::higher,
+     .per_label = "surface.per_label.facets_over_60_deg"},
+    {.key = "surface.facets_over_90_deg",
+     .name = "pairs of facets over 90 deg", .long_name = "pairs of neighbouring facets at more than 90 degrees",
+     .worse = Worse::higher, .gate = &kCounts, .tables = "surface targets", .purpose = Purpose::smooth,
+     .per_label = "surface.per_label.facets_over_90_deg"},
+    {.key = "surface.facets_over_120_deg", .name = "pairs of facets over 120 deg",
+     .long_name = "pairs of neighbouring facets at more than 120 degrees", .worse = Worse::higher,
+     .tables = "surface", .per_label = "surface.per_label.facets_over_120_deg"},
+    {.key = "surface.facets_off_normal_60_percent",
+     .name = "facets off their vertices' normals",
+     .long_name = "share of facets over 60 degrees off the mean of their vertices' normals",
+     .unit = "%", .decimals = 2, .worse = Worse::higher, .tables = "surface targets",
+     .purpose = Purpose::smooth, .per_label = "surface.per_label.facets_off_normal_60_percent"},
+    {.key = "surface.facets_off_corner_60_percent", .name = "facets off a vertex's normal",
+     .long_name = "share of facets over 60 degrees off the normal of one of their vertices", .unit = "%",
+     .decimals = 2, .worse = Worse::higher, .per_label = "surface.per_label.facets_off_corner_60_percent"},
+    {.key = "surface.facet_mean_ratio.min", .name = "facet mean ratio, smallest", .decimals = 3,
+     .worse = Worse::lower, .per_label = "surface.per_label.facet_mean_ratio.min"},
+    {.key = "surface.facet_mean_ratio.p1", .name = "facet mean ratio, 1 %", .decimals = 3, .worse = Worse::lower,
+     .tables = "surface", .per_label = "surface.per_label.facet_mean_ratio.p1"},
+    {.key = "surface.facet_mean_ratio.median", .name = "facet mean ratio, median", .decimals = 3,
+     .worse = Worse::lower, .tables = "surface", .per_label = "surface.per_label.facet_mean_ratio.median"},
+    {.key = "surface.places.not_asked",
+     .name = "sharp places not asked for", .long_name = "spikes and pits, which nothing in the image asks for",
+     .worse = Worse::higher, .gate = &kCounts, .tables = "surface targets", .purpose = Purpose::smooth,
+     .per_label = "surface.per_label.places_not_asked"},
+    {.key = "surface.places.spikes", .name = "spikes", .worse = Worse::higher, .tables = "surface"},
+    {.key = "surface.places.pits", .name = "pits", .worse = Worse::higher, .tables = "surface"},
+
+    // What a finite-element solver makes of it (solver/README.md): of evaluations with --solve alone
+    {.key = "solver.poisson_p1.h1_relative",
+     .name = "P1 H1 error", .long_name = "Poisson, order 1: relative error of the gradient (H1)", .decimals = 5,
+     .worse = Worse::higher, .tables = "solver targets", .purpose = Purpose::solver},
+    {.key = "solver.poisson_p1.l2_relative", .name = "P1 L2 error",
+     .long_name = "Poisson, order 1: relative error of the field (L2)", .decimals = 6, .worse = Worse::higher,
+     .tables = "solver"},
+    {.key = "solver.poisson_p1.unknowns", .name = "P1 unknowns", .long_name = "Poisson, order 1: unknowns",
+     .tables = "solver"},
+    {.key = "solver.poisson_p1.cg_iterations",
+     .name = "P1 CG iterations",
+     .long_name = "Poisson, order 1: iterations of conjugate gradients with Jacobi's preconditioner, to 1e-8",
+     .worse = Worse::higher,
+     .tables = "solver targets", .purpose = Purpose::solver},
+    {.key = "solver.poisson_p1.lambda_max", .name = "P1 lambda max",
+     .long_name = "Poisson, order 1: largest eigenvalue of the scaled stiffness matrix", .decimals = 3,
+     .worse = Worse::higher, .tables = "solver"},
+    {.key = "solver.poisson_p2.h1_relative",
+     .name = "P2 H1 error", .long_name = "Poisson, order 2: relative error of the gradient (H1)", .decimals = 5,
+     .worse = Worse::higher, .tables = "solver targets", .purpose = Purpose::solver},
+    {.key = "solver.poisson_p2.l2_relative", .name = "P2 L2 error",
+     .long_name = "Poisson, order 2: relative error of the field (L2)", .decimals = 6, .worse = Worse::higher,
+     .tables = "solver"},
+    {.key = "solver.poisson_p2.unknowns", .name = "P2 unknowns", .long_name = "Poisson, order 2: unknowns",
+     .tables = "solver"},
+    {.key = "solver.poisson_p2.cg_iterations", .name = "P2 CG iterations",
+     .long_name = "Poisson, order 2: iterations of conjugate gradients with Jacobi's preconditioner, to 1e-8",
+     .worse = Worse::higher, .tables = "solver"},
+    {.key = "solver.poisson_p2.lambda_max", .name = "P2 lambda max",
+     .long_name = "Poisson, order 2: largest eigenvalue of the scaled stiffness matrix", .decimals = 3,
+     .worse = Worse::higher, .tables = "solver"},
+
     // What making it cost
-    {.key = "time_s.mesh", .name = "time", .long_name = "meshing time, end to end without reading and writing files",
-     .unit = "s", .decimals = 2, .worse = Worse::higher, .tables = "time speed", .chart = "time",
-     .logarithmic = true, .published = "time_s"},
+    {.key = "time_s.mesh", .name = "time",
+     .long_name = "meshing time, end to end without reading and writing files", .unit = "s", .decimals = 2,
+     .worse = Worse::higher, .tables = "time speed targets", .chart = "time",
+     .purpose = Purpose::time, .logarithmic = true, .published = "time_s"},
     {.key = "time_s.process_wall", .name = "time with files", .unit = "s", .decimals = 2, .worse = Worse::higher,
      .tables = "speed"},
-    {.key = "time_s.cpu", .name = "CPU time", .unit = "s", .decimals = 2, .worse = Worse::higher,
-     .tables = "time speed", .repeats = Repeats::least},
+    {.key = "time_s.cpu", .name = "CPU time", .unit = "s", .decimals = 2,
+     .worse = Worse::higher, .tables = "time speed targets", .purpose = Purpose::time, .repeats = Repeats::least},
     {.key = "time_s.system_cpu", .name = "system's CPU time", .unit = "s", .decimals = 2,
      .worse = Worse::higher, .tables = "speed"},
     {.key = "time_s.reference_cpu", .name = "CPU time of the reference work", .unit = "s", .decimals = 3,
@@ -156,11 +306,12 @@ inline constexpr Metric kCatalog[] = {
     {.key = "fidelity.surface_hausdorff_mm", .name = "surface Hausdorff distance", .unit = "mm", .decimals = 2,
      .worse = Worse::higher, .gate = &kDistance, .tables = "fidelity deformation_patterns",
      .chart = "surface-distance", .per_label = "fidelity.per_label.surface_hausdorff_mm"},
-    {.key = "fidelity.mean_distance_mm", .name = "mean surface distance", .unit = "mm", .decimals = 3,
-     .worse = Worse::higher, .gate = &kDistance, .per_label = "fidelity.per_label.mean_distance_mm"},
-    {.key = "fidelity.hd95_mm", .name = "95 % surface distance", .unit = "mm", .decimals = 2,
-     .worse = Worse::higher, .gate = &kDistance, .tables = "fidelity deformation_patterns",
-     .per_label = "fidelity.per_label.hd95_mm"},
+    {.key = "fidelity.mean_distance_mm", .name = "mean surface distance", .unit = "mm",
+     .decimals = 3, .worse = Worse::higher, .gate = &kDistance, .tables = "targets", .purpose = Purpose::distance,
+     .per_label = "fidelity.per_label.mean_distance_mm"},
+    {.key = "fidelity.hd95_mm", .name = "95 % surface distance", .unit = "mm",
+     .decimals = 2, .worse = Worse::higher, .gate = &kDistance, .tables = "fidelity deformation_patterns targets",
+     .purpose = Purpose::distance, .per_label = "fidelity.per_label.hd95_mm"},
     {.key = "volume_error_percent", .name = "largest volume error of a label", .unit = "%", .decimals = 2,
      .worse = Worse::higher, .gate = &kVolume, .tables = "fidelity deformation_patterns",
      .per_label = "fidelity.per_label.volume_error_percent", .source = Source::labels},
@@ -168,42 +319,51 @@ inline constexpr Metric kCatalog[] = {
      .gate = &kDice, .tables = "fidelity", .per_label = "fidelity.per_label.dice"},
     {.key = "fidelity.missing_labels", .name = "labels missing", .worse = Worse::higher, .tables = "fidelity"},
 
-    // The figures to look at first, with their targets
+    // The figures to look at first
     {.key = "summary.min_dihedral_deg", .name = "min dihedral angle", .unit = "deg", .decimals = 2,
-     .worse = Worse::lower, .target = kLeastAngle, .tables = "targets", .worst_label = "summary.min_dihedral_label"},
-    {.key = "summary.elements", .name = "elements", .tables = "targets"},
-    {.key = "summary.hausdorff_mm", .name = "HD", .unit = "mm", .decimals = 2, .worse = Worse::higher,
-     .tables = "targets", .worst_label = "summary.hausdorff_label"},
-    {.key = "summary.hausdorff_diagonals", .name = "HD", .long_name = "Hausdorff distance (the paper's), worst label",
-     .unit = "voxel diagonals", .decimals = 2, .worse = Worse::higher, .target = kMostDiagonals,
+     .worse = Worse::lower, .tables = "targets", .purpose = Purpose::shape,
+     .worst_label = "summary.min_dihedral_label"},
+    {.key = "summary.elements", .name = "elements", .worse = Worse::higher, .tables = "targets",
+     .purpose = Purpose::count},
+    {.key = "summary.hausdorff_mm", .name = "HD", .long_name = "Hausdorff distance (the paper's), worst label",
+     .unit = "mm", .decimals = 2, .worse = Worse::higher, .tables = "targets", .purpose = Purpose::distance,
      .worst_label = "summary.hausdorff_label"},
+    {.key = "summary.hausdorff_diagonals", .name = "HD",
+     .long_name = "Hausdorff distance (the paper's), worst label", .unit = "voxel diagonals", .decimals = 2,
+     .worse = Worse::higher, .worst_label = "summary.hausdorff_label"},
     {.key = "summary.image_to_mesh_diagonals", .name = "HD image to mesh", .unit = "voxel diagonals", .decimals = 2,
-     .worse = Worse::higher, .target = kMostDiagonals, .tables = "targets",
-     .worst_label = "summary.image_to_mesh_label"},
+     .worse = Worse::higher, .worst_label = "summary.image_to_mesh_label"},
     {.key = "summary.mesh_to_image_diagonals", .name = "HD mesh to image", .unit = "voxel diagonals", .decimals = 2,
-     .worse = Worse::higher, .target = kMostDiagonals, .tables = "targets",
-     .worst_label = "summary.mesh_to_image_label"},
+     .worse = Worse::higher, .worst_label = "summary.mesh_to_image_label"},
     {.key = "summary.union_hausdorff_mm", .name = "HD of the union", .unit = "mm", .decimals = 2,
-     .worse = Worse::higher, .tables = "targets"},
-    {.key = "summary.union_hausdorff_diagonals", .name = "HD of the union", .unit = "voxel diagonals", .decimals = 2,
-     .worse = Worse::higher, .target = kMostDiagonals},
+     .worse = Worse::higher, .tables = "targets", .purpose = Purpose::distance},
+    {.key = "summary.union_hausdorff_diagonals", .name = "HD of the union", .unit = "voxel diagonals",
+     .decimals = 2, .worse = Worse::higher},
     {.key = "summary.union_image_to_mesh_diagonals", .name = "HD of the union, image to mesh",
-     .unit = "voxel diagonals", .decimals = 2, .worse = Worse::higher, .target = kMostDiagonals, .tables = "targets"},
+     .unit = "voxel diagonals", .decimals = 2, .worse = Worse::higher},
     {.key = "summary.union_mesh_to_image_diagonals", .name = "HD of the union, mesh to image",
-     .unit = "voxel diagonals", .decimals = 2, .worse = Worse::higher, .target = kMostDiagonals, .tables = "targets"},
+     .unit = "voxel diagonals", .decimals = 2, .worse = Worse::higher},
+    {.key = "dice_shortfall", .name = "1 - lowest Dice of a label", .decimals = 4, .worse = Worse::higher,
+     .tables = "targets", .purpose = Purpose::labels, .worst_label = "summary.dice_label",
+     .source = Source::derived, .derive = dice_shortfall},
     {.key = "summary.volume_error_percent", .name = "volume error, labels above 500 voxels", .unit = "%",
-     .decimals = 2, .worse = Worse::higher, .target = kMostVolumeError, .tables = "targets",
+     .decimals = 2, .worse = Worse::higher, .tables = "targets", .purpose = Purpose::labels,
      .worst_label = "summary.volume_error_label"},
-    {.key = "summary.missing_labels", .name = "labels above 50 voxels missing", .worse = Worse::higher,
-     .target = kNothing, .tables = "targets", .worst_label = "summary.missing_labels"},
-    {.key = "summary.non_manifold_edges", .name = "non-manifold edges", .worse = Worse::higher, .target = kNothing,
-     .tables = "targets", .worst_label = "summary.non_manifold_labels"},
+    {.key = "summary.topology_differences", .name = "parts, tunnels and cavities too many or few",
+     .worse = Worse::higher, .tables = "targets", .purpose = Purpose::topology,
+     .worst_label = "summary.topology_difference_labels"},
+    {.key = "summary.inverted", .name = "inverted elements", .worse = Worse::higher,
+     .tables = "targets", .purpose = Purpose::hard_fault, .worst_label = "summary.inverted_labels"},
+    {.key = "summary.non_manifold_edges", .name = "non-manifold edges", .worse = Worse::higher,
+     .tables = "targets", .purpose = Purpose::hard_fault, .worst_label = "summary.non_manifold_labels"},
     {.key = "summary.non_manifold_vertices", .name = "non-manifold vertices", .worse = Worse::higher,
-     .target = kNothing, .tables = "targets", .worst_label = "summary.non_manifold_labels"},
-    {.key = "summary.inverted", .name = "inverted elements", .worse = Worse::higher, .target = kNothing,
-     .tables = "targets", .worst_label = "summary.inverted_labels"},
-    {.key = "summary.self_intersections", .name = "self-intersections", .worse = Worse::higher, .target = kNothing,
-     .tables = "targets", .worst_label = "summary.self_intersection_labels"},
+     .tables = "targets", .purpose = Purpose::hard_fault, .worst_label = "summary.non_manifold_labels"},
+    {.key = "summary.self_intersections", .name = "self-intersections", .worse = Worse::higher,
+     .tables = "targets", .purpose = Purpose::hard_fault, .worst_label = "summary.self_intersection_labels"},
+    {.key = "summary.missing_labels", .name = "labels above 50 voxels lost", .worse = Worse::higher,
+     .tables = "targets", .purpose = Purpose::hard_fault, .worst_label = "summary.missing_labels"},
+    {.key = "summary.topology_difference_labels", .name = "labels of another topology", .worse = Worse::higher,
+     .tables = "targets", .purpose = Purpose::hard_fault, .worst_label = "summary.topology_difference_labels"},
 
     // Against the true shape, where it is known
     {.key = "shape.normal_deviation_deg", .name = "normal deviation, mean", .unit = "deg", .decimals = 2,
@@ -272,8 +432,8 @@ std::string_view words(const Metric& metric);
 /// True when the metric is a row, or a column, of the table of that name.
 bool is_shown_in(const Metric& metric, std::string_view table);
 
-/// True when a magnitude is beyond the metric's target.
-bool misses_target(const Metric& metric, double value);
+/// "distance", "hard fault"; empty for none.
+const char* words(Purpose purpose);
 
 /// The catalog as a Markdown table.
 std::string catalog_text();

@@ -68,7 +68,7 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const Fidelity near = fidelity(view, image, surface, how, progress);
   result["fidelity"] = to_json(near, how);
   result["faults"] = describe_faults(view, quality, connected, crossing, in_image, image, near.labels);
-  result["summary"] = summary({view, image.frame, quality, connected, crossing, near});
+  result["summary"] = summary({view, image.frame, quality, connected, difference, crossing, near});
   if (options.shapes) {
     progress.step("true shape", 0.97);
     result["shape"] = to_json(compare_with_shapes(view, image, surface, options.shapes));

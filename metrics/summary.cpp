@@ -58,13 +58,77 @@ void write_distances(json& object, const Fidelity& fidelity, double diagonal_mm)
   write_distance(object, "union_mesh_to_image", union_to_image.value, diagonal_mm);
 }
 
+double volume_error_percent(const LabelFidelity& row) {
+  return 100 * (row.mesh_volume_mm3 / row.image_volume_mm3 - 1);
+}
+
+// The first kWorstLabels of `rows` by `worse`, of equal ones those with the smaller label.
+template <class Worse>
+std::vector<const LabelFidelity*> worst_of(std::vector<const LabelFidelity*> rows, Worse worse) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const LabelFidelity* a, const LabelFidelity* b) { return worse(*a, *b); });
+  rows.resize(std::min(rows.size(), kWorstLabels));
+  return rows;
+}
+
+bool has_lower_dice(const LabelFidelity& a, const LabelFidelity& b) {
+  return a.overlap.dice() < b.overlap.dice();
+}
+
+bool has_larger_volume_error(const LabelFidelity& a, const LabelFidelity& b) {
+  return std::fabs(volume_error_percent(a)) > std::fabs(volume_error_percent(b));
+}
+
+std::vector<const LabelFidelity*> worst_labels(const Fidelity& fidelity) {
+  std::vector<const LabelFidelity*> all, large;
+  for (const LabelFidelity& row : fidelity.per_label) {
+    all.push_back(&row);
+    if (row.voxels > kVoxelsForVolumeError) {
+      large.push_back(&row);
+    }
+  }
+  std::vector<const LabelFidelity*> worst = worst_of(std::move(all), has_lower_dice);
+  for (const LabelFidelity* row : worst_of(std::move(large), has_larger_volume_error)) {
+    if (std::find(worst.begin(), worst.end(), row) == worst.end()) {
+      worst.push_back(row);
+    }
+  }
+  std::stable_sort(worst.begin(), worst.end(),
+                   [](const LabelFidelity* a, const LabelFidelity* b) { return has_lower_dice(*a, *b); });
+  return worst;
+}
+
+void write_worst_labels(json& object, const Fidelity& fidelity) {
+  auto rows = json::array();
+  for (const LabelFidelity* row : worst_labels(fidelity)) {
+    rows.push_back({{"label", row->label},
+                    {"voxels", row->voxels},
+                    {"dice", row->overlap.dice()},
+                    {"volume_error_percent", volume_error_percent(*row)}});
+  }
+  object["dice_min"] = rows.empty() ? json(nullptr) : rows.front()["dice"];
+  object["dice_label"] = rows.empty() ? json(nullptr) : rows.front()["label"];
+  object["worst_labels"] = std::move(rows);
+}
+
+void write_topology(json& object, const TopologyDifference& difference) {
+  auto labels = json::array();
+  for (const LabelTopologyDifference& row : difference.per_label) {
+    if (row.count().value_or(0) > 0) {
+      labels.push_back(row.label);
+    }
+  }
+  object["topology_differences"] = difference.total ? json(*difference.total) : json(nullptr);
+  object["topology_difference_labels"] = std::move(labels);
+}
+
 void write_labels(json& object, const Fidelity& fidelity) {
   Worst volume;
   auto missing = json::array();
   const auto& absent = fidelity.labels.missing;
   for (const LabelFidelity& row : fidelity.per_label) {
     if (row.voxels > kVoxelsForVolumeError) {
-      volume.add(row.label, 100 * (row.mesh_volume_mm3 / row.image_volume_mm3 - 1));
+      volume.add(row.label, volume_error_percent(row));
     }
     if (row.voxels > kVoxelsToBeThere && std::find(absent.begin(), absent.end(), row.label) != absent.end()) {
       missing.push_back(row.label);
@@ -128,6 +192,8 @@ json summary(const Judged& mesh) {
   object["voxel_diagonal_mm"] = diagonal_mm;
   write_distances(object, mesh.fidelity, diagonal_mm);
   write_labels(object, mesh.fidelity);
+  write_worst_labels(object, mesh.fidelity);
+  write_topology(object, mesh.difference);
   return object;
 }
 

@@ -43,6 +43,10 @@ TEST(Summary, OfTheVoxelsThemselves) {
     EXPECT_EQ(look[list], json::array()) << list;
   for (const char* count : {"inverted", "non_manifold_edges", "non_manifold_vertices", "self_intersections"})
     EXPECT_EQ(look[count], 0) << count;
+  EXPECT_EQ(look["dice_min"], 1.0);
+  EXPECT_EQ(look["dice_label"], 3);
+  EXPECT_EQ(look["topology_differences"], 0);
+  EXPECT_EQ(look["topology_difference_labels"], json::array());
   EXPECT_GT(look["min_dihedral_deg"], 0);
   EXPECT_EQ(look["min_dihedral_label"], 3);
 }
@@ -61,6 +65,18 @@ TEST(Summary, AnInterfaceOutOfPlaceIsNoFaultOfTheUnion) {
   // Label 3 has grown by 60 %, but from 500 voxels; 9 has lost three of seven layers.
   EXPECT_NEAR(look["volume_error_percent"].get<double>(), -300. / 7, 1e-9);
   EXPECT_EQ(look["volume_error_label"], 9);
+  // Of eleven layers that either has, 9 has four in common; 3 has five of thirteen.
+  EXPECT_NEAR(look["dice_min"].get<double>(), 2 * 4 / 11., 1e-12);
+  EXPECT_EQ(look["dice_label"], 9);
+  const json& worst = look["worst_labels"];
+  ASSERT_EQ(worst.size(), kWorstLabels);
+  EXPECT_EQ(worst[0]["label"], 9);
+  EXPECT_EQ(worst[0]["voxels"], 700);
+  EXPECT_NEAR(worst[0]["volume_error_percent"].get<double>(), -300. / 7, 1e-9);
+  EXPECT_EQ(worst[1]["label"], 3);
+  EXPECT_NEAR(worst[1]["dice"].get<double>(), 2 * 5 / 13., 1e-12);
+  EXPECT_NEAR(worst[1]["volume_error_percent"].get<double>(), 60, 1e-9);
+  EXPECT_EQ(worst[2]["label"], 5);
 }
 
 TEST(Summary, OnlyLabelsAboveFiftyVoxelsMustBeThere) {
@@ -70,6 +86,9 @@ TEST(Summary, OnlyLabelsAboveFiftyVoxelsMustBeThere) {
   const json result = test::judge(test::kuhn_mesh(without), image, {false, false});
   EXPECT_EQ(result["summary"]["missing_labels"], json::array({5}));
   EXPECT_EQ(result["fidelity"]["missing_labels"], json::array({5, 6}));
+  EXPECT_EQ(result["summary"]["dice_min"], 0.0);
+  EXPECT_EQ(result["summary"]["topology_differences"], 2);
+  EXPECT_EQ(result["summary"]["topology_difference_labels"], json::array({5, 6}));
 }
 
 TEST(Summary, NamesTheLabelsWithFaults) {

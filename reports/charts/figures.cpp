@@ -109,11 +109,6 @@ std::string axis_title(MetricId id) {
   return std::string(words(metric)) + (metric.unit.empty() ? "" : " (" + std::string(metric.unit) + ")");
 }
 
-std::optional<double> limit_of(MetricId id) {
-  const metrics::Target& target = metrics::metric(id).target;
-  return target.limit == metrics::Limit::none ? std::nullopt : std::optional(target.value);
-}
-
 /// Every mesher of a case in the plane of distance and another figure.
 Scatter trade_off(const std::string& case_name, const Columns& columns, const Axis& y_axis,
                   bool logarithmic_y) {
@@ -123,8 +118,6 @@ Scatter trade_off(const std::string& case_name, const Columns& columns, const Ax
   scatter.y_title = axis_title(y_axis.id);
   scatter.logarithmic_x = true;
   scatter.logarithmic_y = logarithmic_y;
-  scatter.x_limit = limit_of(kDistance);
-  scatter.y_limit = limit_of(y_axis.id);
   for (const std::string& column : columns.names()) {
     const Runs runs = columns.runs(case_name, column);
     const double x = median_or_none(runs, kDistance);
@@ -141,12 +134,11 @@ void add_trade_offs(const std::string& case_name, const Columns& columns, std::v
   constexpr double kThousands = 1e-3;
   Scatter angle = trade_off(case_name, columns, {metric_id("summary.min_dihedral_deg")}, false);
   angle.title = case_name + ": distance and smallest dihedral angle";
-  angle.note = "Better is up and left; dashed: " + format_number(*angle.x_limit, 1) + " voxel diagonals, " +
-               format_number(*angle.y_limit, 0) + " degrees.";
+  angle.note = "Better is up and left.";
   Scatter count = trade_off(case_name, columns, {metric_id("summary.elements"), kThousands}, true);
   count.title = case_name + ": distance and number of elements";
   count.y_title += " (thousands)";
-  count.note = "Better is down and left; dashed: " + format_number(*count.x_limit, 1) + " voxel diagonals.";
+  count.note = "Better is down and left.";
   for (const auto& [name, scatter] : {std::pair("angle", &angle), std::pair("elements", &count)}) {
     if (!scatter->series.empty()) {
       figures.push_back(

@@ -12,6 +12,10 @@
 #include "mesher/core/terminal_progress.hpp"
 #include "metrics/evaluate.hpp"
 #include "reports/commands/commands.hpp"
+#include "reports/results/evaluation_text.hpp"
+#include "reports/run/runner.hpp"
+#include "reports/run/solve.hpp"
+#include "reports/run/workplace.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -24,19 +28,10 @@ struct EvaluateCommandOptions {
   std::uint64_t phantom_seed = 0;
   int threads = 0;
   bool quiet = false;
+  bool solve = false;
+  double solve_timeout_s = RunOptions{}.timeout_s;
   metrics::EvaluateOptions metrics;
 };
-
-/// The figures of a section that are single numbers or flags, one per line.
-void print_section(const std::string& section, const nlohmann::json& figures) {
-  std::cout << section << '\n';
-  for (const auto& [key, value] : figures.items()) {
-    if (!value.is_structured() ||
-        (value.is_array() && value.size() <= 8 && !value.empty() && !value[0].is_structured())) {
-      std::cout << "  " << key << ": " << value.dump() << '\n';
-    }
-  }
-}
 
 /// What the image is, for the table of image data.
 nlohmann::json image_section(const LabelImage& image) {
@@ -77,6 +72,15 @@ void write_json(const std::string& path, const nlohmann::json& evaluation) {
   file.commit();
 }
 
+nlohmann::json solver_section(const EvaluateCommandOptions& options) {
+  return solve({.command = solve_command(bin_dir()),
+                .mesh = options.mesh,
+                .image = options.image,
+                .threads = options.threads,
+                .timeout_s = options.solve_timeout_s,
+                .memory_limit_bytes = RunOptions{}.memory_limit_bytes});
+}
+
 int evaluate(const EvaluateCommandOptions& options) {
   if (!options.json.empty()) {
     require_writable(options.json);
@@ -90,6 +94,10 @@ int evaluate(const EvaluateCommandOptions& options) {
   const LabelImage image = read_label_image(options.image);
   nlohmann::json evaluation = metrics::evaluate(mesh, image, judged, progress);
   evaluation["image"] = image_section(image);
+  if (options.solve) {
+    progress.step("solving", 1);
+    evaluation["solver"] = solver_section(options);
+  }
   constexpr double kMegabytesPerByte = 1e-6;
   evaluation["evaluation_peak_mb"] = kMegabytesPerByte * static_cast<double>(process_peak_rss_bytes());
   progress.done();
@@ -97,15 +105,7 @@ int evaluate(const EvaluateCommandOptions& options) {
     write_json(options.json, evaluation);
   }
   if (!options.quiet) {
-    for (const auto& [section, figures] : evaluation.items()) {
-      if (figures.is_object() && section != "image") {
-        print_section(section, figures);
-      }
-    }
-    std::cout << "faults: " << evaluation.at("faults").size() << '\n';
-    for (const nlohmann::json& fault : evaluation.at("faults")) {
-      std::cout << "  " << fault.get<std::string>() << '\n';
-    }
+    std::cout << evaluation_text(evaluation);
   }
   return kExitSuccess;
 }
@@ -151,6 +151,13 @@ Command add_evaluate_command(CLI::App& app) {
       ->add_flag("--smooth,!--no-smooth", options->metrics.smooth,
                  "distances to the smooth surfaces between the labels too")
       ->default_str("on");
+  parser->add_flag(
+      "--solve", options->solve,
+      "solve Poisson's equation on the mesh with elements of order 1 and 2 (cbc3d-solve, a process of "
+      "its own) and give the errors; what is not solved is null with the reason");
+  parser->add_option("--solve-timeout", options->solve_timeout_s, "time limit of that process, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   add_phantom_options(*parser, options);
   parser->add_option("--threads", options->threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)

@@ -63,6 +63,9 @@ Command add_run_command(CLI::App& app) {
                    "folder for results.jsonl, meshes, tables and figures; made if need be")
       ->required();
   add_limit_options(parser, options->run, options->memory_limit_gib);
+  parser->add_flag("--solve", options->run.solve,
+                   "solve Poisson's equation on every mesh (cbc3d-solve, a process of its own under the same "
+                   "limits) and give the errors; lines that are there already are not solved again");
   add_resume_options(parser, *options);
   parser->add_flag("--strict", options->strict, "exit code 3 when a job is not ok");
   parser->add_flag("!--no-pictures", options->output.pictures, "draw no cut sections and surfaces");

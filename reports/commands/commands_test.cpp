@@ -1,6 +1,8 @@
 // The commands as their users run them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 
 #include "mesher/core/image_io.hpp"
@@ -47,6 +49,78 @@ TEST(Commands, EvaluateWritesTheSectionsOfAResultLine) {
   }
   EXPECT_EQ(figures["counts"]["tets"], 1);
   EXPECT_EQ(figures["fidelity"]["missing_labels"], Json::array({9}));
+}
+
+/// A cube of n voxels a side of label 1, each of which is six tets around a diagonal.
+void write_cube(int n, const std::filesystem::path& image_file, const std::filesystem::path& mesh_file) {
+  LabelImage image;
+  image.frame.size = {n, n, n};
+  image.labels = {0, 1};
+  image.voxels.assign(image.frame.voxel_count(), 1);
+  write_label_image(image, image_file);
+  Mesh mesh;
+  for (int v = 0; v < (n + 1) * (n + 1) * (n + 1); ++v) {
+    mesh.points.push_back({v % (n + 1) - .5, v / (n + 1) % (n + 1) - .5, v / (n + 1) / (n + 1) - .5});
+  }
+  for (std::size_t voxel = 0; voxel < image.voxels.size(); ++voxel) {
+    const Index3 low = image.frame.index_of(voxel);
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    do {
+      Index3 at = low;
+      std::array<VertexId, 4> tet{};
+      for (std::size_t step = 0; step < 4; ++step) {
+        tet[step] = static_cast<VertexId>((at[2] * (n + 1) + at[1]) * (n + 1) + at[0]);
+        at[axes[std::min<std::size_t>(step, 2)]] += step < 3 ? 1 : 0;
+      }
+      const bool odd = (axes[0] + 1) % 3 != axes[1];
+      if (odd) std::swap(tet[2], tet[3]);
+      mesh.tets.add(tet, 1);
+    } while (std::next_permutation(axes.begin(), axes.end()));
+  }
+  write_mesh(mesh, mesh_file);
+}
+
+TEST(Commands, EvaluateSolvesOnRequest) {
+  const TemporaryFolder folder;
+  const auto image = folder.path() / "cube.nrrd", mesh = folder.path() / "cube.vtu",
+             json = folder.path() / "figures.json", own = folder.path() / "own.json";
+  write_cube(6, image, mesh);
+  ASSERT_EQ(bench({"evaluate", mesh, image, "--json", json, "--quiet"}).exit_code, 0);
+  EXPECT_FALSE(read_json(json).contains("solver"));
+  const ChildResult result = bench({"evaluate", mesh, image, "--json", json, "--solve"});
+  ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
+  Json solver = read_json(json)["solver"];
+  if (std::string(SOLVE).empty()) {
+    EXPECT_TRUE(solver["poisson_p1"].is_null());
+    EXPECT_NE(solver["reason"].get<std::string>().find("is not built"), std::string::npos);
+    return;
+  }
+  EXPECT_EQ(solver["reason"], "");
+  EXPECT_EQ(solver["poisson_p1"]["unknowns"], 5 * 5 * 5);
+  EXPECT_EQ(solver["poisson_p2"]["unknowns"], 11 * 11 * 11);  // vertices and edges inside
+  EXPECT_LT(solver["poisson_p2"]["h1_relative"], solver["poisson_p1"]["h1_relative"]);
+  ASSERT_EQ(run_child({{SOLVE, mesh, "--image", image, "--quiet", "--json", own}, 1, 120, 0}).exit_code, 0);
+  solver.erase("reason");
+  EXPECT_EQ(solver, read_json(own)["solver"]);
+}
+
+TEST(Commands, AMeshThatTheSolverRefusesIsEvaluatedAllTheSame) {
+  const TemporaryFolder folder;
+  const auto image = folder.path() / "cube.nrrd", mesh = folder.path() / "cube.vtu",
+             json = folder.path() / "figures.json";
+  write_cube(3, image, mesh);
+  Mesh folded = read_mesh(mesh);
+  std::swap(folded.tets.nodes[0][0], folded.tets.nodes[0][1]);
+  write_mesh(folded, mesh);
+  ASSERT_EQ(bench({"evaluate", mesh, image, "--json", json, "--solve"}).exit_code, 0);
+  const Json figures = read_json(json);
+  EXPECT_EQ(figures["quality"]["inverted"], 1);
+  EXPECT_TRUE(figures["solver"]["poisson_p1"].is_null());
+  EXPECT_TRUE(figures["solver"]["poisson_p2"].is_null());
+  if (!std::string(SOLVE).empty()) {
+    EXPECT_EQ(figures["solver"]["reason"].get<std::string>().rfind("the mesh is refused: ", 0), 0U)
+        << figures["solver"];
+  }
 }
 
 TEST(Commands, BadInputIsOneLineAndExitCodeTwo) {

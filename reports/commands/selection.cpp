@@ -6,6 +6,7 @@
 #include "baselines/external.hpp"
 #include "baselines/registry.hpp"
 #include "mesher/core/error.hpp"
+#include "reports/run/solve.hpp"
 #include "reports/run/workplace.hpp"
 
 namespace cbc3d::reports {
@@ -153,6 +154,7 @@ Bench make_bench(const Selection& selection, const std::filesystem::path& out_di
   bench.meshers = chosen_meshers(selection);
   bench.bin_dir = bin_dir();
   bench.evaluate_command = {executable_file(), "evaluate"};
+  bench.solve_command = solve_command(bench.bin_dir);
   bench.resolve_image = [folders = data_dirs({selection.data.begin(), selection.data.end()}),
                          cache_dir = out_dir / "images"](const cases::Case& subject) {
     return cases::resolve_image(subject, folders, cache_dir);

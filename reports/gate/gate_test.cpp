@@ -6,6 +6,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "reports/gate/gate_job.hpp"
 #include "reports/results/testing_folder.hpp"
 #include "reports/run/child_process.hpp"
 
@@ -175,6 +176,41 @@ TEST(Gate, JobsThatAreMissingFallAndNewOnesAreNoted) {
   ASSERT_EQ(verdict.notes.size(), 1U);
 }
 
+TEST(Gate, AFigureThatTheBaselineLacksIsNotedAndDoesNotFall) {
+  std::vector<Json> run = good_run();
+  for (Json& line : run) {
+    line["quality"]["mean_ratio"] = {{"min", -1.0}, {"p1", 0.0}, {"median", 0.1}};
+    line["topology"]["differences"] = 99;
+  }
+  Json written = baseline();
+  written["tolerances"].erase("shape");  // a class that it does not know either
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "older.json", written.dump());
+  const Json older = read_baseline(folder.path() / "older.json");
+  const Verdict verdict = compare_lines(run, older);
+  EXPECT_TRUE(verdict.holds()) << to_text(verdict);
+  EXPECT_EQ(verdict.notes, std::vector<std::string>{
+                               "box, cbc3d, 1 thread: not compared, for the baseline lacks "
+                               "quality.mean_ratio.min, quality.mean_ratio.p1, quality.mean_ratio.median, "
+                               "topology.differences; --update takes them in"});
+  const Json newer = make_baseline(decode_lines(run), older, "the new figures");
+  EXPECT_TRUE(compare_lines(run, newer).notes.empty());
+  for (Json& line : run) {
+    line["topology"]["differences"] = 100;
+  }
+  EXPECT_EQ(compare_lines(run, newer).fallen(), 1U);
+}
+
+TEST(Gate, EveryFigureOfShapeSurfaceAndTopologyThatMayNotFallIsGated) {
+  for (const char* key :
+       {"quality.mean_ratio.min", "quality.mean_ratio.p1", "quality.mean_ratio.median",
+        "quality.edge_ratio.p99", "quality.edge_ratio.max", "quality.neighbour_size_ratio.p99",
+        "quality.valence_max", "surface.facet_angle_rms_deg", "surface.facets_over_90_deg",
+        "surface.places.not_asked", "topology.differences"}) {
+    EXPECT_TRUE(find_gated_metric(key).has_value()) << key;
+  }
+}
+
 TEST(Gate, AnUpdateKeepsTolerancesAndHistory) {
   Json former = baseline();
   former["tolerances"]["time"]["relative"] = 0.1;
@@ -189,7 +225,8 @@ TEST(Gate, EveryToleranceOfTheCatalogIsThere) {
   EXPECT_EQ(tolerances["distance"]["relative"], 0.05);
   EXPECT_EQ(tolerances["memory"]["absolute"], 16777216);
   EXPECT_FALSE(tolerances.contains("exact"));
-  for (const char* name : {"counts", "angle", "jacobian", "distance", "dice", "volume", "memory", "time"}) {
+  for (const char* name :
+       {"counts", "angle", "jacobian", "shape", "ratio", "distance", "dice", "volume", "memory", "time"}) {
     EXPECT_TRUE(tolerances.contains(name)) << name;
   }
 }

@@ -162,6 +162,7 @@ void decode_figures(const Json& line, JobResult& result) {
   result.figures = figures_of(line);
   result.worst_labels = worst_labels_of(line);
   result.missing_labels = numbers_of<long>(at_path(line, "fidelity.missing_labels"));
+  result.solver_reason = text_of(at_path(line, "solver.reason"));
   result.dihedral_histogram = numbers_of<double>(at_path(line, "quality.dihedral_histogram_5deg"));
   result.voxel_surface = figures_of({{"shape", at_path(line, "shape.voxel_surface")}});
   result.labels_with_shape = at_path(line, "shape.per_label").size();

@@ -39,7 +39,8 @@ struct JobResult {
   metrics::Figures figures;
   /// The labels named beside a figure: where it is the worst, or which have what is counted.
   std::map<metrics::MetricId, std::vector<long>> worst_labels;
-  std::vector<long> missing_labels;        ///< of the image, not in the mesh
+  std::vector<long> missing_labels;  ///< of the image, not in the mesh
+  std::string solver_reason;  ///< why a solver that was asked has no figures; empty: it has, or was not asked
   std::vector<double> dihedral_histogram;  ///< angles in steps of 5 degrees; empty: not known
   std::vector<std::pair<std::string, double>> stage_seconds;  ///< in the order in which the stages ran
   bool includes_files = false;          ///< the time is of the whole process, reading and writing included

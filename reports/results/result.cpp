@@ -58,14 +58,15 @@ Json empty_result() {
   result["reason"] = "";
   result["mesh_file"] = nullptr;
   result["mesh_sha256"] = nullptr;
-  for (const char* section : {"counts", "quality", "fidelity", "topology", "summary"}) {
+  for (const char* section : {"counts", "quality", "surface", "fidelity", "topology", "solver", "summary"}) {
     result[section] = Json::object();  // in the order in which people read a line
   }
   add_metrics(result);
-  for (const char* section : {"fidelity", "topology"}) {
+  for (const char* section : {"surface", "fidelity", "topology"}) {
     result[section]["per_label"] = nullptr;
   }
   result["quality"]["dihedral_histogram_5deg"] = nullptr;
+  result["solver"]["reason"] = nullptr;
   result["faults"] = nullptr;
   result["evaluation_peak_mb"] = nullptr;
   result["time_s"]["stages"] = nullptr;

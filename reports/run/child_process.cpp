@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "mesher/core/error.hpp"
@@ -20,6 +21,13 @@ extern char** environ;
 
 namespace cbc3d::reports {
 namespace {
+
+/// "8", "0.25".
+std::string number_text(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
+}
 
 constexpr int kPollMilliseconds = 50;
 constexpr std::size_t kTailBytes = 16384;
@@ -198,6 +206,30 @@ std::string last_line(const std::string& text) {
   const std::size_t before = text.find_last_of("\r\n", end);
   const std::size_t begin = before == std::string::npos ? 0 : before + 1;
   return text.substr(begin, end + 1 - begin);
+}
+
+std::string printable(const std::string& text) {
+  const std::string clean =
+      nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return nlohmann::json::parse(clean).get<std::string>();
+}
+
+std::string failure_text(const ChildResult& child, double timeout_s, std::int64_t memory_limit_bytes) {
+  const std::string line = printable(last_line(child.stderr_tail));
+  switch (child.end) {
+    case ChildEnd::timeout:
+      return "not done after " + number_text(timeout_s) + " s";
+    case ChildEnd::out_of_memory:
+      return "used more than " + number_text(static_cast<double>(memory_limit_bytes) / double(1 << 30)) +
+             " GiB";
+    case ChildEnd::signalled:
+      return signal_name(child.signal) + (line.empty() ? "" : "; last line: " + line);
+    case ChildEnd::not_started:
+      return line;
+    case ChildEnd::exited:
+      break;
+  }
+  return line.empty() ? "exit code " + std::to_string(child.exit_code) : line;
 }
 
 std::string signal_name(int signal) {

@@ -44,6 +44,13 @@ ChildResult run_child(const ChildCommand& command);
 /// The last line of `text` that is not blank; empty if there is none.
 std::string last_line(const std::string& text);
 
+/// Why a child did not end with success, in one line of UTF-8: the limit that it met, its signal, or the last
+/// line that it wrote to standard error, or else its exit code.
+std::string failure_text(const ChildResult& child, double timeout_s, std::int64_t memory_limit_bytes);
+
+/// A text that a program printed, which may be anything, as UTF-8.
+std::string printable(const std::string& text);
+
 /// "SIGSEGV (Segmentation fault)".
 std::string signal_name(int signal);
 

@@ -10,6 +10,7 @@
 #include "reports/run/child_process.hpp"
 #include "reports/run/provenance.hpp"
 #include "reports/run/reference_work.hpp"
+#include "reports/run/solve.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -59,46 +60,36 @@ nlohmann::json object_at(const nlohmann::json& object, const char* key) {
   return object.contains(key) && object[key].is_object() ? object[key] : nlohmann::json::object();
 }
 
-std::string number_text(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
-}
-
-/// What a mesher printed may be anything; a result line is UTF-8.
-std::string printable(const std::string& text) {
-  std::string clean = nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  return nlohmann::json::parse(clean).get<std::string>();
-}
-
 bool succeeded(const ChildResult& child) {
   return child.end == ChildEnd::exited && child.exit_code == 0;
+}
+
+/// Status of a result line for the end of a child that did not end with success.
+const char* status_of(ChildEnd end) {
+  switch (end) {
+    case ChildEnd::timeout:
+      return "timeout";
+    case ChildEnd::out_of_memory:
+      return "out_of_memory";
+    case ChildEnd::signalled:
+      return "crashed";
+    case ChildEnd::not_started:
+    case ChildEnd::exited:
+      break;
+  }
+  return "failed";
 }
 
 /// Status and reason of a child that did not end with success. `report` is what the child wrote of itself.
 void set_failure(Json& result, const ChildResult& child, const nlohmann::json& report,
                  const RunOptions& options) {
-  const std::string line = printable(last_line(child.stderr_tail));
-  switch (child.end) {
-    case ChildEnd::timeout:
-      return set_status(result, "timeout", "not done after " + number_text(options.timeout_s) + " s");
-    case ChildEnd::out_of_memory:
-      return set_status(result, "out_of_memory",
-                        "used more than " +
-                            number_text(static_cast<double>(options.memory_limit_bytes) / double(1 << 30)) +
-                            " GiB");
-    case ChildEnd::signalled:
-      return set_status(result, "crashed",
-                        signal_name(child.signal) + (line.empty() ? "" : "; last line: " + line));
-    case ChildEnd::not_started:
-      return set_status(result, "failed", line);
-    case ChildEnd::exited:
-      break;
+  const std::string text = failure_text(child, options.timeout_s, options.memory_limit_bytes);
+  if (child.end != ChildEnd::exited) {
+    return set_status(result, status_of(child.end), text);
   }
   const std::string reason = text_at(report, "reason");
-  const std::string fallback = line.empty() ? "exit code " + std::to_string(child.exit_code) : line;
   set_status(result, text_at(report, "status") == "out_of_memory" ? "out_of_memory" : "failed",
-             reason.empty() ? fallback : reason);
+             reason.empty() ? text : reason);
 }
 
 /// Time and memory: the mesher's own figures, which leave out reading and writing. For a mesher from outside
@@ -271,6 +262,12 @@ class Children {
     return nlohmann::json::object();
   }
 
+  /// The section `solver`; what it lacks is no failure of the job.
+  [[nodiscard]] nlohmann::json solve(const fs::path& image) const {
+    return reports::solve(
+        {bench_.solve_command, files_.mesh, image, 0, options_.timeout_s, options_.memory_limit_bytes});
+  }
+
  private:
   [[nodiscard]] ChildResult start(const std::vector<std::string>& argv, int threads,
                                   bool bind_threads) const {
@@ -358,6 +355,9 @@ void JobRunner::run_children(const Job& job, const fs::path& image, Json& result
       return;
     }
     evaluations_[key] = evaluation;
+    if (options_.solve) {
+      evaluations_[key]["solver"] = children.solve(image);
+    }
   }
   merge_evaluation(result, evaluations_[key]);
   set_status(result, "ok", "");

@@ -23,6 +23,7 @@ struct Bench {
   std::filesystem::path bin_dir;              ///< folder of the mesher executables
   std::vector<std::string> evaluate_command;  ///< "MESH IMAGE --json FILE --quiet" is appended, and
                                               ///< for a phantom its name and arguments
+  std::vector<std::string> solve_command;     ///< see SolveJob
   std::function<cases::ResolvedImage(const cases::Case&)> resolve_image;
 };
 
@@ -43,6 +44,7 @@ struct RunOptions {
   bool rerun_changed = false;  ///< on resuming, run again what has changed instead of refusing
   bool retry_failed = false;   ///< on resuming, run again what was not ok
   bool interleaved = false;    ///< all first repeats before the second ones, so that drift hits all alike
+  bool solve = false;          ///< finite-element problems on every mesh too, see solve.hpp
   bool bind_threads = false;   ///< OpenMP's threads stay each on a core of its own
   Shard shard;                 ///< the part of the jobs to run
 };

@@ -104,6 +104,29 @@ TEST_F(Runner, AGoodJobHasFiguresTimesAndProvenance) {
   EXPECT_TRUE(std::filesystem::exists(options_.out_dir / result["mesh_file"].get<std::string>()));
 }
 
+TEST_F(Runner, ASolverIsAskedOnRequestAndItsLackIsNoFailure) {
+  bench_.solve_command = {TEST_CHILD, "solve"};
+  run({"mesh"});
+  EXPECT_TRUE(lines().at(0)["solver"]["poisson_p1"]["h1_relative"].is_null());
+  EXPECT_TRUE(lines().at(0)["solver"]["reason"].is_null());
+  options_.solve = true;
+  options_.out_dir = folder_.path() / "solved";
+  options_.repeats = 2;  // the same bytes are solved once
+  run({"mesh"});
+  for (const Json& line : lines()) {
+    EXPECT_EQ(line["solver"]["poisson_p1"]["h1_relative"], 0.125);
+    EXPECT_EQ(line["solver"]["reason"], "");
+  }
+  options_.out_dir = folder_.path() / "absent";
+  bench_.solve_command = {"/nowhere/cbc3d-solve"};
+  run({"mesh"});
+  const JobResult absent = decode(lines().at(0));
+  EXPECT_TRUE(absent.is_ok());
+  EXPECT_EQ(absent.line["counts"]["tets"], 1);
+  EXPECT_TRUE(absent.line["solver"]["poisson_p1"].is_null());
+  EXPECT_NE(absent.solver_reason.find("is not built"), std::string::npos);
+}
+
 TEST_F(Runner, AbsentMeshersAndImagesAreLinesToo) {
   bench_.meshers = {fake_mesher("mesh", false)};
   run_jobs(bench_, options_, progress_);

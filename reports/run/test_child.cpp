@@ -1,5 +1,5 @@
 // A child that behaves as its first argument says: exit CODE, crash, sleep, allocate, spawn PIDFILE, say
-// TEXT, env NAME, mesh OUT REPORT, and ill ways of meshing.
+// TEXT, say-and-end CODE TEXT, env NAME, mesh OUT REPORT, solve ... OUT, and ill ways of meshing.
 #include <unistd.h>
 
 #include <chrono>
@@ -98,6 +98,18 @@ int fail(const std::string& report_file) {
   return 3;
 }
 
+/// As cbc3d-solve: the figures go to the file that its last argument names.
+int write_solver_figures(const std::string& file) {
+  std::ofstream(file)
+      << R"({"solver":{"poisson_p1":{"h1_relative":0.125},"poisson_p2":{"h1_relative":0.25}}})";
+  return 0;
+}
+
+int say_and_end(int code, const std::string& text) {
+  std::fprintf(stderr, "%s\n", text.c_str());
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -126,6 +138,8 @@ int main(int argc, char** argv) {
     const char* value = std::getenv(first.c_str());
     return std::fprintf(stderr, "%s\n", value == nullptr ? "unset" : value) < 0;
   }
+  if (mode == "solve") return write_solver_figures(argv[argc - 1]);
+  if (mode == "say-and-end" && argc > 3) return say_and_end(std::stoi(first), argv[3]);
   if (mode == "crash") {
     std::fprintf(stderr, "about to crash\n");
     std::signal(SIGSEGV, SIG_DFL);

@@ -13,6 +13,13 @@ bool is_mixed(const JobResult& result) {
          result.figures[metric_id("counts.tets")].value_or(0);
 }
 
+/// Solved, or with a reason why not.
+bool was_solved(const JobResult& result) {
+  using metrics::metric_id;
+  return result.figures[metric_id("solver.poisson_p1.h1_relative")] ||
+         result.figures[metric_id("solver.poisson_p2.h1_relative")] || !result.solver_reason.empty();
+}
+
 }  // namespace
 
 TableBuilder catalog_table(const std::string& name, const std::string& title) {
@@ -25,6 +32,12 @@ TableBuilder catalog_table(const std::string& name, const std::string& title) {
       }
     }
     return table;
+  };
+}
+
+TableBuilder for_solved_meshes(const TableBuilder& table) {
+  return [table](const TableInput& input) {
+    return std::any_of(input.results.begin(), input.results.end(), was_solved) ? table(input) : Table{};
   };
 }
 

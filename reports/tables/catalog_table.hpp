@@ -14,4 +14,7 @@ TableBuilder catalog_table(const std::string& name, const std::string& title);
 /// The same table, but without rows where no mesh of the run has other elements than tetrahedra.
 TableBuilder for_mixed_meshes(const TableBuilder& table);
 
+/// The same table, but without rows where the run asked no solver (`run --solve`).
+TableBuilder for_solved_meshes(const TableBuilder& table);
+
 }  // namespace cbc3d::reports

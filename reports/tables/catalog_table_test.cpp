@@ -38,6 +38,20 @@ TEST(CatalogTable, FiguresMadeOfSeveral) {
   EXPECT_EQ(row_of(table_of(catalog_table("time", ""), {line}), "peak memory (MB)").cells[0].value, 250);
 }
 
+TEST(CatalogTable, SolverIsThereWhereItWasAsked) {
+  const TableBuilder solver = for_solved_meshes(catalog_table("solver", "Solver"));
+  Json solved = job_line("nidus", "cgal", 1), refused = job_line("nidus", "tetgen", 1);
+  EXPECT_TRUE(table_of(solver, {solved, crashed_line("nidus", "ld", "oops")}).rows.empty());
+  solved["solver"]["poisson_p1"]["h1_relative"] = 0.125;
+  refused["solver"] = {{"poisson_p1", nullptr}, {"reason", "the mesh is refused: flat cells"}};
+  const Table table = table_of(solver, {solved, refused, crashed_line("nidus", "ld", "oops")});
+  const Row& row = row_of(table, "P1 H1 error");
+  EXPECT_EQ(row.cells[0].value, 0.125);
+  EXPECT_FALSE(row.cells[1].value.has_value());
+  EXPECT_EQ(row.cells[1].reason, "the mesh is refused: flat cells");
+  EXPECT_EQ(row.cells[2].reason, "crashed: oops");
+}
+
 TEST(CatalogTable, AMesherHasAColumnForEveryThreadCount) {
   const Table table = table_of(
       kElementCount,

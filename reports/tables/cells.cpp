@@ -46,6 +46,10 @@ Cell cell_of(const Runs& runs, metrics::MetricId id) {
       runs.front()->includes_files) {
     cell.reason = "whole process, reading and writing files included";
   }
+  const JobResult* good = first_good(runs);
+  if (!cell.value && good != nullptr && metrics::metric(id).key.starts_with("solver.")) {
+    cell.reason = good->solver_reason;
+  }
   return cell;
 }
 

@@ -14,7 +14,7 @@ namespace cbc3d::reports {
 Cell cell_of(const Runs& runs, const FigureOf& figure);
 
 /// As above, of a metric in the unit in which it is shown. A time that includes reading and writing files
-/// says so.
+/// says so, and a solver's figure that is not there says why.
 Cell cell_of(const Runs& runs, metrics::MetricId id);
 
 /// A row of a metric for a case: a cell for every column, each with the published figure where there is one.

@@ -24,7 +24,7 @@ std::string cell_text(const Cell& cell, int row_decimals) {
   if (cell.value && cell.runs > 1 && lowest != highest) {
     text += " [" + lowest + "-" + highest + "]";
   }
-  text += cell.missed ? " missed" : "";
+  text += cell.missed && !cell.missed_word.empty() ? " " + cell.missed_word : "";
   text += cell.where.empty() ? "" : " (" + cell.where + ")";
   if (cell.paper) {
     text += " (paper: " + format_number(*cell.paper, decimals) + ")";

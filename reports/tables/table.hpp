@@ -20,8 +20,9 @@ struct Cell {
   std::string reason;           ///< why the figure, or some run of it, is not there; or how it was taken
   std::string text;             ///< shown instead of the figure; empty: the figure is
   int decimals = -1;            ///< of this cell; -1: those of its row
-  std::string where = {};       ///< where a figure is the worst: "label 4"
-  bool missed = false;          ///< the figure is beyond what it should be
+  std::string where = {};       ///< shown in brackets: where a figure is the worst ("label 4"), what it is of
+  bool missed = false;          ///< the figure is beyond what it should be, and is marked
+  std::string missed_word = "missed";  ///< behind a marked figure where there are no colours; empty: none
 };
 
 /// A cell of one number without runs, or of a text.

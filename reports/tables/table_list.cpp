@@ -18,6 +18,14 @@ const std::vector<TableBuilder>& table_list() {
   static const std::vector<TableBuilder> list{
       catalog_table("element_count", "Element count"),
       catalog_table("element_quality", "Element quality"),
+      catalog_table(
+          "shape",
+          "Shape of the elements (1 is best, 0 flat; edge ratio: longest over shortest) and how their "
+          "sizes change"),
+      catalog_table("surface", "How the surface of all labels as one looks"),
+      for_solved_meshes(catalog_table(
+          "solver",
+          "What a finite-element solver makes of the meshes (Poisson's equation with a known solution)")),
       catalog_table("fidelity",
                     "Fidelity (HD: the paper's Hausdorff distance of surface vertices and boundary voxels)"),
       catalog_table("time", "Time and memory (meshing end to end, without reading and writing files)"),

@@ -28,12 +28,12 @@ TEST(Tables, ThoseWithoutRowsAreLeftOut) {
     EXPECT_FALSE(table.rows.empty()) << table.name;
     names.insert(table.name);
   }
-  for (const char* name : {"element_count", "element_quality", "fidelity", "time", "speed", "targets",
-                           "image_data", "input_parameters"}) {
+  for (const char* name : {"element_count", "element_quality", "shape", "surface", "fidelity", "time",
+                           "speed", "targets", "image_data", "input_parameters"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   for (const char* name :
-       {"vertices", "scaling", "smoothness", "deformation_patterns", "sweep", "microbenchmarks"}) {
+       {"vertices", "scaling", "solver", "smoothness", "deformation_patterns", "sweep", "microbenchmarks"}) {
     EXPECT_FALSE(names.contains(name)) << name;
   }
 }

@@ -8,25 +8,12 @@
 namespace cbc3d::reports {
 namespace {
 
-using metrics::Limit;
 using metrics::Metric;
 using metrics::MetricId;
+using metrics::Purpose;
 
-constexpr const char* kName = "targets";
-
-/// "min dihedral angle (deg), at least 20".
-std::string title_with_target(const Metric& metric) {
-  const double value = metric.target.value;
-  switch (metric.target.limit) {
-    case Limit::none:
-      return title(metric);
-    case Limit::at_least:
-      return title(metric) + ", at least " + format_number(value, 0);
-    case Limit::at_most:
-      break;
-  }
-  return title(metric) + ", at most " + format_number(value, value == std::floor(value) ? 0 : 1);
-}
+constexpr Purpose kPurposes[] = {Purpose::distance, Purpose::smooth, Purpose::shape, Purpose::solver,
+                                 Purpose::topology, Purpose::labels, Purpose::count, Purpose::time};
 
 /// "label 4", "labels 3, 5"; empty when there is none.
 std::string labels_text(const std::vector<long>& labels) {
@@ -44,42 +31,137 @@ std::string where_of(const Runs& runs, MetricId id) {
   return good == nullptr || !good->worst_labels.contains(id) ? "" : labels_text(good->worst_labels.at(id));
 }
 
-Cell target_cell(const Runs& runs, MetricId id) {
-  Cell cell = cell_of(runs, id);
-  if (cell.value) {
-    cell.missed = misses_target(metrics::metric(id), *cell.value);
-    const bool is_count = metrics::metric(id).decimals == 0;
-    cell.where = is_count && !cell.missed ? "" : where_of(runs, id);
-  }
-  return cell;
+std::string joined(const std::string& a, const std::string& b) {
+  return a.empty() || b.empty() ? a + b : a + ", " + b;
 }
 
-/// How many of a column's cells in these rows are missed.
-Cell missed_cell(const std::vector<Row>& rows, std::size_t column) {
-  int missed = 0, known = 0;
-  std::string reason;
-  for (const Row& row : rows) {
-    missed += row.cells[column].missed ? 1 : 0;
-    known += row.cells[column].value ? 1 : 0;
-    reason = row.cells[column].reason;
-  }
-  Cell cell = known == 0 ? Cell{} : number_cell(missed, 0);
-  cell.reason = reason;
-  return cell;
+/// "0.52 mm".
+std::string with_unit(double value, const Metric& metric) {
+  const std::string unit(metric.unit);
+  return format_number(value, metric.decimals) + (unit.empty() ? "" : " " + unit);
 }
 
-std::vector<Row> case_rows(const Columns& columns, const std::string& case_name) {
-  std::vector<Row> rows;
-  for (const MetricId id : metrics_of_table(kName)) {
-    Row row{case_name, title_with_target(metrics::metric(id)), metrics::metric(id).decimals, {}};
+/// A metric of one case: the figures of all columns, and the best of them.
+class Comparison {
+ public:
+  Comparison(const Columns& columns, const std::string& case_name, MetricId id)
+      : metric_(metrics::metric(id)), case_name_(case_name) {
     for (const std::string& column : columns.names()) {
-      row.cells.push_back(target_cell(columns.runs(case_name, column), id));
+      const Runs runs = columns.runs(case_name, column);
+      cells_.push_back(without_signs(cell_of(runs, id)));
+      cells_.back().where = cells_.back().value ? where_of(runs, id) : "";
+      add_to_best(cells_.back());
     }
-    rows.push_back(std::move(row));
   }
-  Row sum{case_name, "limits missed", 0, {}};
+
+  /// True where some column has the figure.
+  [[nodiscard]] bool is_measured() const { return best_.has_value(); }
+
+  [[nodiscard]] Row row() const {
+    const std::string name = metrics::words(metric_.purpose) + (": " + title(metric_));
+    if (!is_measured() || *best_ > 0) {
+      Row row{case_name_, name, 2, {}};
+      for (const Cell& cell : cells_) row.cells.push_back(multiple_of_best(cell));
+      return row;
+    }
+    const std::string best = *best_ == 0 ? "0" : with_unit(*best_, metric_);
+    return {case_name_, name + ", itself (the best is " + best + ")", metric_.decimals, cells_};
+  }
+
+  /// The counts of a hard fault.
+  [[nodiscard]] Row faults() const {
+    Row row{case_name_, std::string(metrics::words(metric_.purpose)) + ": " + title(metric_), 0, cells_};
+    for (Cell& cell : row.cells) {
+      cell.missed = cell.value.value_or(0) > 0;
+      cell.missed_word = "";
+    }
+    return row;
+  }
+
+ private:
+  [[nodiscard]] bool is_lower_worse() const { return metric_.worse == metrics::Worse::lower; }
+
+  /// Signed figures, such as errors of volume, count by their magnitude; a measure of which 1 is best does
+  /// not.
+  [[nodiscard]] Cell without_signs(Cell cell) const {
+    if (cell.value && !is_lower_worse()) {
+      const double a = std::abs(cell.lowest), b = std::abs(cell.highest);
+      const bool crosses = cell.lowest < 0 && cell.highest > 0;
+      cell.value = std::abs(*cell.value);
+      cell.lowest = crosses ? 0 : std::min(a, b);
+      cell.highest = std::max(a, b);
+    }
+    return cell;
+  }
+
+  void add_to_best(const Cell& cell) {
+    if (cell.value && (!best_ || (is_lower_worse() ? *cell.value > *best_ : *cell.value < *best_))) {
+      best_ = cell.value;
+    }
+  }
+
+  [[nodiscard]] double multiple(double value) const {
+    return is_lower_worse() ? *best_ / value : value / *best_;
+  }
+
+  [[nodiscard]] Cell multiple_of_best(const Cell& cell) const {
+    Cell result = cell;
+    if (!cell.value) return result;
+    const std::string figure = with_unit(*cell.value, metric_);
+    result.where = joined(figure, cell.where);
+    if (cell.lowest <= 0 && is_lower_worse()) {
+      result.text = joined(figure + ", no multiple", cell.where);
+      return result;
+    }
+    const auto [lowest, highest] = std::minmax(multiple(cell.lowest), multiple(cell.highest));
+    result.value = multiple(*cell.value);
+    result.lowest = lowest;
+    result.highest = highest;
+    return result;
+  }
+
+  const Metric& metric_;
+  std::string case_name_;
+  std::vector<Cell> cells_;
+  std::optional<double> best_;
+};
+
+/// How many kinds of hard faults a column has.
+Cell kinds_cell(const std::vector<Row>& rows, std::size_t column) {
+  int kinds = 0, known = 0;
+  for (const Row& row : rows) {
+    kinds += row.cells[column].missed ? 1 : 0;
+    known += row.cells[column].value ? 1 : 0;
+  }
+  Cell cell = known == 0 ? Cell{} : number_cell(kinds, 0);
+  cell.reason = rows.back().cells[column].reason;
+  return cell;
+}
+
+std::vector<Row> purpose_rows(const Columns& columns, const std::string& case_name) {
+  std::vector<Row> rows;
+  for (const Purpose purpose : kPurposes) {
+    for (const MetricId id : metrics::all_metrics()) {
+      if (metrics::metric(id).purpose == purpose) {
+        const Comparison comparison(columns, case_name, id);
+        // Where no solver was asked its rows would be dashes alone.
+        if (purpose != Purpose::solver || comparison.is_measured()) rows.push_back(comparison.row());
+      }
+    }
+  }
+  return rows;
+}
+
+std::vector<Row> fault_rows(const Columns& columns, const std::string& case_name) {
+  std::vector<Row> rows;
+  for (const MetricId id : metrics::all_metrics()) {
+    if (metrics::metric(id).purpose == Purpose::hard_fault) {
+      rows.push_back(Comparison(columns, case_name, id).faults());
+    }
+  }
+  Row sum{case_name, "hard faults, kinds", 0, {}};
   for (std::size_t column = 0; column < columns.names().size(); ++column) {
-    sum.cells.push_back(missed_cell(rows, column));
+    sum.cells.push_back(kinds_cell(rows, column));
   }
   rows.push_back(std::move(sum));
   return rows;
@@ -89,14 +171,15 @@ std::vector<Row> case_rows(const Columns& columns, const std::string& case_name)
 
 Table target_table(const TableInput& input) {
   const Columns columns(input.results);
-  Table table{.name = kName,
-              .title =
-                  "What a good mesh should have (HD: the paper's Hausdorff distance; of the worst label, and "
-                  "of all labels as one)",
-              .columns = columns.names()};
+  Table table{
+      .name = "targets",
+      .title =
+          "Every figure as a multiple of the best one's of the meshers compared here (1 is best; not at "
+          "equal element counts; the figure in brackets), and the hard faults",
+      .columns = columns.names()};
   for (const std::string& case_name : case_names(input.results)) {
-    for (Row& row : case_rows(columns, case_name)) {
-      table.rows.push_back(std::move(row));
+    for (const auto& rows : {purpose_rows(columns, case_name), fault_rows(columns, case_name)}) {
+      table.rows.insert(table.rows.end(), rows.begin(), rows.end());
     }
   }
   return table;

@@ -7,32 +7,94 @@
 namespace cbc3d::reports {
 namespace {
 
-TEST(TargetTable, SaysWhatIsMissedAndWhere) {
-  Json good = job_line("nidus", "cbc3d", 100), bad = job_line("nidus", "cgal", 100);
-  good["summary"] = {{"min_dihedral_deg", 21.5},        {"min_dihedral_label", 4},
-                     {"image_to_mesh_diagonals", 1.1},  {"image_to_mesh_label", 4},
-                     {"missing_labels", Json::array()}, {"self_intersections", 0}};
-  bad["summary"] = {{"min_dihedral_deg", 9.0},        {"min_dihedral_label", 7},
-                    {"volume_error_percent", -1.5},   {"volume_error_label", 2},
-                    {"missing_labels", {5, 6}},       {"self_intersections", 3},
-                    {"self_intersection_labels", {7}}};
-  const Table targets = table_of(target_table, {good, bad, crashed_line("nidus", "tetgen", "oops")});
+Json compared_line(const std::string& mesher, double angle_deg, double error_percent, int elements) {
+  Json line = job_line("nidus", mesher, elements);
+  line["summary"]["min_dihedral_deg"] = angle_deg;
+  line["summary"]["min_dihedral_label"] = 4;
+  line["summary"]["volume_error_percent"] = error_percent;
+  line["summary"]["volume_error_label"] = 2;
+  line["summary"]["elements"] = elements;
+  return line;
+}
+
+TEST(TargetTable, FiguresAreMultiplesOfTheBest) {
+  const Table targets =
+      table_of(target_table, {compared_line("cbc3d", 20, .5, 3000), compared_line("cgal", 16, -1.25, 2000),
+                              crashed_line("nidus", "tetgen", "oops")});
   const auto text = [&](const std::string& figure, std::size_t column) {
     return text_in(targets, "nidus", figure, column);
   };
-  EXPECT_EQ(text("min dihedral angle (deg), at least 20", 0), "21.50 (label 4)");
-  EXPECT_EQ(text("min dihedral angle (deg), at least 20", 1), "9.00 missed (label 7)");
-  EXPECT_EQ(text("HD image to mesh (voxel diagonals), at most 1.1", 0), "1.10 (label 4)");
-  EXPECT_EQ(text("HD image to mesh (voxel diagonals), at most 1.1", 1), "-");
-  EXPECT_EQ(text("volume error, labels above 500 voxels (%), at most 1", 1), "-1.50 missed (label 2)");
-  EXPECT_EQ(text("labels above 50 voxels missing, at most 0", 0), "0");
-  EXPECT_EQ(text("labels above 50 voxels missing, at most 0", 1), "2 missed (labels 5, 6)");
-  EXPECT_EQ(text("self-intersections, at most 0", 1), "3 missed (label 7)");
-  EXPECT_EQ(text("limits missed", 0), "0");
-  EXPECT_EQ(text("limits missed", 1), "4");
-  EXPECT_EQ(text("limits missed", 2), "-");
-  EXPECT_NE(to_csv(targets).find("9,missed,label 7"), std::string::npos) << to_csv(targets);
-  EXPECT_EQ(to_json(targets)["rows"][0]["cells"]["cgal"]["missed"], true);
+  const std::string angle = "shape: min dihedral angle (deg)",
+                    volume = "labels: volume error, labels above 500 voxels (%)";
+  EXPECT_EQ(text(angle, 0), "1.00 (20.00 deg, label 4)");
+  EXPECT_EQ(text(angle, 1), "1.25 (16.00 deg, label 4)");  // more is worse, although higher angles are better
+  EXPECT_EQ(text(angle, 2), "-");
+  EXPECT_EQ(text(volume, 0), "1.00 (0.50 %, label 2)");
+  EXPECT_EQ(text(volume, 1), "2.50 (1.25 %, label 2)");  // whichever its sign
+  EXPECT_EQ(text("count: elements", 0), "1.50 (3,000)");
+  EXPECT_EQ(text("smooth: angle between facets, rms (deg)", 0), "-");  // not known of any
+  EXPECT_EQ(text("solver: P1 H1 error", 0), "no row solver: P1 H1 error");
+  EXPECT_EQ(to_json(targets)["rows"][0]["cells"]["tetgen"]["reason"], "crashed: oops");
+  EXPECT_NE(to_csv(targets).find("1.25,,\"16.00 deg, label 4\""), std::string::npos) << to_csv(targets);
+}
+
+TEST(TargetTable, WhereTheBestIsZeroTheFiguresStandThemselves) {
+  Json a = compared_line("cbc3d", 20, .5, 10), b = compared_line("cgal", 0, 0, 10);
+  a["surface"]["facets_over_90_deg"] = 7;
+  b["surface"]["facets_over_90_deg"] = 0;
+  const Table targets = table_of(target_table, {a, b});
+  const auto text = [&](const std::string& figure, std::size_t column) {
+    return text_in(targets, "nidus", figure, column);
+  };
+  const std::string pairs = "smooth: pairs of facets over 90 deg, itself (the best is 0)";
+  EXPECT_EQ(text(pairs, 0), "7");
+  EXPECT_EQ(text(pairs, 1), "0");
+  EXPECT_EQ(text("labels: volume error, labels above 500 voxels (%), itself (the best is 0)", 0),
+            "0.50 (label 2)");
+  // An angle of 0 has no multiple, for it would be infinite.
+  EXPECT_EQ(text("shape: min dihedral angle (deg)", 1), "0.00 deg, no multiple, label 4");
+  EXPECT_EQ(text("shape: min dihedral angle (deg)", 0), "1.00 (20.00 deg, label 4)");
+}
+
+TEST(TargetTable, WhereEvenTheBestIsNegativeTheFiguresStandThemselves) {
+  Json a = job_line("nidus", "cbc3d", 10), b = job_line("nidus", "cgal", 10);
+  a["quality"]["mean_ratio"]["p1"] = -.5;
+  b["quality"]["mean_ratio"]["p1"] = -.25;
+  const Table targets = table_of(target_table, {a, b});
+  EXPECT_EQ(text_in(targets, "nidus", "shape: mean ratio, 1 %, itself (the best is -0.250)", 0), "-0.500");
+}
+
+TEST(TargetTable, HardFaultsStandApart) {
+  Json good = job_line("nidus", "cbc3d", 100), bad = job_line("nidus", "cgal", 100);
+  good["summary"] = {{"inverted", 0}, {"missing_labels", Json::array()}, {"self_intersections", 0}};
+  bad["summary"] = {{"inverted", 0},
+                    {"missing_labels", {5, 6}},
+                    {"self_intersections", 3},
+                    {"self_intersection_labels", {7}},
+                    {"topology_differences", 162},
+                    {"topology_difference_labels", {1}}};
+  const Table targets = table_of(target_table, {good, bad, crashed_line("nidus", "tetgen", "oops")});
+  const auto text = [&](const std::string& figure, std::size_t column) {
+    return text_in(targets, "nidus", "hard fault" + figure, column);
+  };
+  EXPECT_EQ(text(": labels above 50 voxels lost", 0), "0");
+  EXPECT_EQ(text(": labels above 50 voxels lost", 1), "2 (labels 5, 6)");
+  EXPECT_EQ(text(": self-intersections", 1), "3 (label 7)");
+  EXPECT_EQ(text(": labels of another topology", 1), "1 (label 1)");
+  EXPECT_EQ(text("s, kinds", 0), "0");
+  EXPECT_EQ(text("s, kinds", 1), "3");
+  EXPECT_EQ(text("s, kinds", 2), "-");
+  EXPECT_TRUE(row_of(targets, "hard fault: self-intersections").cells[1].missed);
+  EXPECT_FALSE(row_of(targets, "hard fault: inverted elements").cells[1].missed);
+}
+
+TEST(TargetTable, SolverIsThereWhereItWasAsked) {
+  Json a = job_line("nidus", "cbc3d", 10), b = job_line("nidus", "cgal", 10);
+  a["solver"] = {{"poisson_p1", {{"h1_relative", .3}}}, {"reason", ""}};
+  b["solver"] = {{"poisson_p1", nullptr}, {"reason", "not solved: no convergence"}};
+  const Table targets = table_of(target_table, {a, b});
+  EXPECT_EQ(text_in(targets, "nidus", "solver: P1 H1 error", 0), "1.00 (0.30000)");
+  EXPECT_EQ(row_of(targets, "solver: P1 H1 error").cells[1].reason, "not solved: no convergence");
 }
 
 }  // namespace
