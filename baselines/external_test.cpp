@@ -1,12 +1,12 @@
 #include "baselines/external.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "mesher/core/error.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::baselines {
 namespace {
@@ -14,16 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class External : public testing::Test {
+class External : public ::testing::Test {
  protected:
-  External() {
-    std::string pattern = fs::temp_directory_path() / "cbc3d-external-XXXXXX";
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~External() override { fs::remove_all(folder_); }
-  External(const External&) = delete;
-  External& operator=(const External&) = delete;
-
   fs::path write(const std::string& text) const {
     std::ofstream(folder_ / "tool.json") << text;
     return folder_ / "tool.json";
@@ -38,7 +30,8 @@ class External : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  cbc3d::testing::TemporaryFolder temporary_{"external"};
+  fs::path folder_ = temporary_.path();
   json good_{{"name", "tool"},
              {"description", "a tool"},
              {"licence", "MIT"},

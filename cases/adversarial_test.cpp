@@ -8,10 +8,12 @@
 #include <set>
 #include <string>
 
-#include "cases/core/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::cases {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -19,7 +21,7 @@ std::string bytes_of(const std::filesystem::path& file) {
 }
 
 TEST(AdversarialImages, AreSmallFilesOfTheirOwnNamesWithTheSameBytesEveryTime) {
-  const test::Folder first("adversarial-1"), second("adversarial-2");
+  const TemporaryFolder first("adversarial-1"), second("adversarial-2");
   std::set<std::string> names;
   for (const AdversarialImage& image : adversarial_images()) {
     EXPECT_TRUE(names.insert(std::string(image.name)).second) << image.name;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
-#include "cases/core/testing_folder.hpp"
 #include "cases/manifest.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::cases {
 namespace {
 
+using cbc3d::testing::TemporaryFolder;
 using nlohmann::json;
 
 json good_manifest() {
@@ -36,7 +37,7 @@ json phantom_manifest() {
 }
 
 std::string error_of(const json& manifest) {
-  const test::Folder folder("manifest");
+  const TemporaryFolder folder("manifest");
   folder.write("bad.json", manifest.is_string() ? manifest.get<std::string>() : manifest.dump());
   try {
     load_cases(folder.path());
@@ -48,7 +49,7 @@ std::string error_of(const json& manifest) {
 }
 
 TEST(Manifest, EveryKeyIsRead) {
-  const test::Folder folder("manifest");
+  const TemporaryFolder folder("manifest");
   json second = phantom_manifest();
   second["name"] = "two";
   folder.write("b.json", good_manifest().dump());
@@ -88,7 +89,7 @@ struct BadKey {
   const char* named;  // what the message must name
 };
 
-class BadManifest : public testing::TestWithParam<BadKey> {};
+class BadManifest : public ::testing::TestWithParam<BadKey> {};
 
 TEST_P(BadManifest, IsRefusedByKey) {
   json manifest = std::string(GetParam().pointer).find("phantom") == std::string::npos ? good_manifest()
@@ -100,28 +101,28 @@ TEST_P(BadManifest, IsRefusedByKey) {
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadManifest,
-    testing::Values(BadKey{"/name", 7, "\"name\" is 7"}, BadKey{"/title", "", "\"title\""},
-                    BadKey{"/suites", "demo", "\"suites\""}, BadKey{"/suites", json::array(), "\"suites\""},
-                    BadKey{"/image", "one.nrrd", "\"image\""}, BadKey{"/colour", "red", "\"colour\""},
-                    BadKey{"/image/sha", "aa", "\"image.sha\""},
-                    BadKey{"/image/sha256", "ABC", "\"image.sha256\""},
-                    BadKey{"/image/file", "/etc/one.nrrd", "\"image.file\""},
-                    BadKey{"/parameters/cgal", 3, "\"parameters.cgal\""},
-                    BadKey{"/parameters/cgal/cell-size", {1, 2}, "\"parameters.cgal.cell-size\""},
-                    BadKey{"/paper", {1, 2}, "\"paper\""}, BadKey{"/derive", true, "\"derive\""},
-                    BadKey{"/derive/fill_holes", 1, "\"derive.fill_holes\""},
-                    BadKey{"/derive", {{"dilate", true}}, "\"derive.dilate\""},
-                    BadKey{"/derive/repeat", {2, 0, 1}, "\"derive.repeat\""},
-                    BadKey{"/deformation_pattern", "face", "\"deformation_pattern\""},
-                    BadKey{"/deformation_pattern/pattern", "corner", "vertex, edge, face, no"},
-                    BadKey{"/deformation_pattern/before", "ghost", "which no manifest has"},
-                    BadKey{"/image/phantom/name", "ghost", "organs, shells"},
-                    BadKey{"/image/phantom/size", {16, 17}, "\"image.phantom.size\""},
-                    BadKey{"/image/phantom/size", {16, 17, 1.5}, "\"image.phantom.size\""},
-                    BadKey{"/image/phantom/spacing_mm", {1, 1, 0}, "\"image.phantom.spacing_mm\""},
-                    BadKey{"/parameter_sets/fine/cgal", 3, "\"parameter_sets.fine.cgal\""},
-                    BadKey{"/image/phantom/sha256", "ABC", "\"image.phantom.sha256\""},
-                    BadKey{"/image/phantom/seed", -1, "\"image.phantom.seed\""}));
+    ::testing::Values(BadKey{"/name", 7, "\"name\" is 7"}, BadKey{"/title", "", "\"title\""},
+                      BadKey{"/suites", "demo", "\"suites\""}, BadKey{"/suites", json::array(), "\"suites\""},
+                      BadKey{"/image", "one.nrrd", "\"image\""}, BadKey{"/colour", "red", "\"colour\""},
+                      BadKey{"/image/sha", "aa", "\"image.sha\""},
+                      BadKey{"/image/sha256", "ABC", "\"image.sha256\""},
+                      BadKey{"/image/file", "/etc/one.nrrd", "\"image.file\""},
+                      BadKey{"/parameters/cgal", 3, "\"parameters.cgal\""},
+                      BadKey{"/parameters/cgal/cell-size", {1, 2}, "\"parameters.cgal.cell-size\""},
+                      BadKey{"/paper", {1, 2}, "\"paper\""}, BadKey{"/derive", true, "\"derive\""},
+                      BadKey{"/derive/fill_holes", 1, "\"derive.fill_holes\""},
+                      BadKey{"/derive", {{"dilate", true}}, "\"derive.dilate\""},
+                      BadKey{"/derive/repeat", {2, 0, 1}, "\"derive.repeat\""},
+                      BadKey{"/deformation_pattern", "face", "\"deformation_pattern\""},
+                      BadKey{"/deformation_pattern/pattern", "corner", "vertex, edge, face, no"},
+                      BadKey{"/deformation_pattern/before", "ghost", "which no manifest has"},
+                      BadKey{"/image/phantom/name", "ghost", "organs, shells"},
+                      BadKey{"/image/phantom/size", {16, 17}, "\"image.phantom.size\""},
+                      BadKey{"/image/phantom/size", {16, 17, 1.5}, "\"image.phantom.size\""},
+                      BadKey{"/image/phantom/spacing_mm", {1, 1, 0}, "\"image.phantom.spacing_mm\""},
+                      BadKey{"/parameter_sets/fine/cgal", 3, "\"parameter_sets.fine.cgal\""},
+                      BadKey{"/image/phantom/sha256", "ABC", "\"image.phantom.sha256\""},
+                      BadKey{"/image/phantom/seed", -1, "\"image.phantom.seed\""}));
 
 TEST(Manifest, MissingKeysAreNamed) {
   for (const char* key : {"name", "title", "suites", "image"}) {
@@ -151,7 +152,7 @@ TEST(Manifest, ParameterSetIsLaidOver) {
 }
 
 TEST(Manifest, FolderAndNamesAreChecked) {
-  const test::Folder folder("manifest");
+  const TemporaryFolder folder("manifest");
   EXPECT_THROW(load_cases(folder.path() / "absent"), InputError);
   EXPECT_THROW(load_cases(folder.path()), InputError);
   folder.write("a.json", good_manifest().dump());

@@ -5,16 +5,18 @@
 #include <cmath>
 #include <set>
 
-#include "cases/core/testing_folder.hpp"
 #include "cases/manifest.hpp"
 #include "cases/phantoms/random.hpp"
 #include "cases/phantoms/registry.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::cases {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 Phantom quarter(const std::string& name) {
   for (const Case& one : load_cases(CBC3D_MANIFESTS)) {
@@ -25,10 +27,10 @@ Phantom quarter(const std::string& name) {
   throw InputError("no case " + name + "-quarter");
 }
 
-class PaperPhantom : public testing::TestWithParam<std::string> {};
+class PaperPhantom : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PaperPhantom, HasItsManifestsVoxelsAtAnyThreadCountAndInSlabs) {
-  const test::Folder folder("paper");
+  const TemporaryFolder folder("paper");
   const Phantom phantom = quarter(GetParam());
   ASSERT_EQ(phantom.sha256.size(), 64U);
   set_thread_count(1);
@@ -77,7 +79,7 @@ TEST_P(PaperPhantom, TrueDistanceAgreesWithTheVoxels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PaperPhantom,
-                         testing::Values("aneurysm", "brain-tumor", "brain-avm", "lumen-stent"));
+                         ::testing::Values("aneurysm", "brain-tumor", "brain-avm", "lumen-stent"));
 
 /// Pairs of labels (0: background) that share a voxel face, the lesser first.
 std::set<std::pair<Label, Label>> contacts_of(const LabelImage& image) {

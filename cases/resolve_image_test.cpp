@@ -5,17 +5,18 @@
 #include <sstream>
 
 #include "cases/core/sha256.hpp"
-#include "cases/core/testing_folder.hpp"
 #include "cases/derive.hpp"
 #include "cases/manifest.hpp"
 #include "cases/phantoms/registry.hpp"
 #include "cases/testing_two_blocks.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::cases {
 namespace {
 
+using cbc3d::testing::TemporaryFolder;
 using test::clear;
 using test::two_blocks;
 
@@ -45,7 +46,7 @@ Case file_case(const LabelImage& image, const std::filesystem::path& folder) {
 }
 
 TEST(ResolveImage, FileIsFoundByItsDigest) {
-  const test::Folder wrong("wrong"), right("right"), cache("cache");
+  const TemporaryFolder wrong("wrong"), right("right"), cache("cache");
   wrong.write("one.bin", "abd");
   right.write("one.bin", "abc");
   const auto found = resolve_image(file_case(kShaOfAbc), {wrong.path(), right.path()}, cache.path());
@@ -54,7 +55,7 @@ TEST(ResolveImage, FileIsFoundByItsDigest) {
 }
 
 TEST(ResolveImage, AbsentFileSaysWhatIsWantedAndWhereToGetIt) {
-  const test::Folder data("data");
+  const TemporaryFolder data("data");
   const auto found = resolve_image(file_case(kShaOfAbc), {data.path()}, data.path());
   EXPECT_TRUE(found.path.empty());
   EXPECT_TRUE(says(found, "'one.bin'"));
@@ -65,7 +66,7 @@ TEST(ResolveImage, AbsentFileSaysWhatIsWantedAndWhereToGetIt) {
 }
 
 TEST(ResolveImage, AnotherFileOfTheSameNameIsSkipped) {
-  const test::Folder data("data");
+  const TemporaryFolder data("data");
   data.write("one.bin", "abc");
   const auto found = resolve_image(file_case(kShaOfNothing), {data.path()}, data.path());
   EXPECT_TRUE(found.path.empty());
@@ -75,7 +76,7 @@ TEST(ResolveImage, AnotherFileOfTheSameNameIsSkipped) {
 }
 
 TEST(ResolveImage, PhantomIsGeneratedOnce) {
-  const test::Folder folder("cache");
+  const TemporaryFolder folder("cache");
   const auto cache = folder.path() / "new" / "cache";
   Case one;
   one.phantom = Phantom{"organs", {24, 20, 16}, {.7, 1, 1.5}, 4, ""};
@@ -92,7 +93,7 @@ TEST(ResolveImage, PhantomIsGeneratedOnce) {
 }
 
 TEST(ResolveImage, DerivedImagesOfOneSourceAreTold) {
-  const test::Folder data("data"), folder("cache");
+  const TemporaryFolder data("data"), folder("cache");
   LabelImage image = two_blocks();
   clear(image, {4, 4, 4});
   Case one = file_case(image, data.path());
@@ -105,7 +106,7 @@ TEST(ResolveImage, DerivedImagesOfOneSourceAreTold) {
 }
 
 TEST(ResolveImage, DerivedImageIsWrittenOnceAndItsSourceChecked) {
-  const test::Folder data("data"), folder("cache");
+  const TemporaryFolder data("data"), folder("cache");
   const auto cache = folder.path() / "images";
   LabelImage image = two_blocks();
   clear(image, {4, 4, 4});
@@ -129,7 +130,7 @@ TEST(ResolveImage, NidusHasNinetySixHoleVoxels) {
   for (std::string folder; std::getline(list, folder, ':');) {
     folders.emplace_back(folder);
   }
-  const test::Folder cache("cache");
+  const TemporaryFolder cache("cache");
   const auto cases = load_cases(CBC3D_MANIFESTS);
   for (const Case& one : cases) {
     if (one.name == "nidus-filled") {

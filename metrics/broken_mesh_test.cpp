@@ -1,13 +1,11 @@
 // Broken meshes are named.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "metrics/testing.hpp"
 
 namespace cbc3d::metrics {
@@ -15,25 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class BrokenMesh : public testing::Test {
+class BrokenMesh : public ::testing::Test {
  protected:
-  BrokenMesh() { fs::create_directories(folder_); }
-  ~BrokenMesh() override { fs::remove_all(folder_); }
-
   // The message of the error that reading the file and judging its mesh ends with; "" without one.
   [[nodiscard]] std::string error_of(const std::string& name) const {
     try {
-      test::judge(read_mesh(folder_ / name), test::two_boxes(), {false, false});
+      test::judge(read_mesh(folder_.file(name)), test::two_boxes(), {false, false});
     } catch (const InputError& error) {
       return error.what();
     }
     return "";
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
 
-  fs::path folder_ = fs::temp_directory_path() / ("cbc3d_broken_" + std::to_string(::getpid()));
+  cbc3d::testing::TemporaryFolder folder_{"broken"};
 };
 
 // Legacy VTK text with one tet.
@@ -75,7 +68,7 @@ TEST_F(BrokenMesh, NoLabelArray) {
 TEST_F(BrokenMesh, CoordinateIsNoNumber) {
   Mesh mesh = test::kuhn_mesh(test::two_boxes());
   mesh.points[3].y = std::numeric_limits<double>::quiet_NaN();
-  write_mesh(mesh, folder_ / "nan.vtu");
+  write_mesh(mesh, folder_.path() / "nan.vtu");
   EXPECT_TRUE(contains(error_of("nan.vtu"), "vertex 3 has a coordinate that is not finite"))
       << error_of("nan.vtu");
   write("nan.vtk", vtk_text("0 nan 1", 10, kLabel));  // VTK reads no such text
@@ -94,11 +87,11 @@ TEST_F(BrokenMesh, NoCells) {
 
 TEST_F(BrokenMesh, TruncatedFiles) {
   for (const std::string name : {"cut.vtu", "cut.vtk", "cut.msh"}) {
-    write_mesh(test::kuhn_mesh(test::two_boxes()), folder_ / name);
+    write_mesh(test::kuhn_mesh(test::two_boxes()), folder_.path() / name);
     EXPECT_EQ(error_of(name), "") << name;
     for (const double share : {.9, .5, .02}) {
-      fs::resize_file(folder_ / name,
-                      static_cast<std::uintmax_t>(share * double(fs::file_size(folder_ / name))));
+      fs::resize_file(folder_.path() / name,
+                      static_cast<std::uintmax_t>(share * double(fs::file_size(folder_.path() / name))));
       EXPECT_TRUE(contains(error_of(name), name)) << name << " at " << share << ": " << error_of(name);
     }
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "metrics/box_tree.hpp"
+#include "metrics/element_corners.hpp"
 #include "metrics/reduce.hpp"
 
 namespace cbc3d::metrics {
@@ -61,15 +62,6 @@ struct Values {
   }
 };
 
-template <std::size_t N>
-std::array<Vec3, N> corners_of(const CellView& cell, const std::vector<Vec3>& points) {
-  std::array<Vec3, N> p;
-  for (std::size_t n = 0; n < N; ++n) {
-    p[n] = points[cell.nodes[n]];
-  }
-  return p;
-}
-
 double add_tet(const std::array<Vec3, 4>& p, Running& running, Values& values) {
   for (const double angle : dihedral_angles_deg(p[0], p[1], p[2], p[3])) {
     running.min_dihedral = std::min(running.min_dihedral, angle);
@@ -99,15 +91,15 @@ double add_shape(const CellView& cell, const std::vector<Vec3>& points, Running&
   double jacobian = 0;
   switch (cell.kind) {
     case CellKind::kTet:
-      return add_tet(corners_of<4>(cell, points), running, values);
+      return add_tet(node_positions<4>(cell, points), running, values);
     case CellKind::kPyramid:
-      return add_pyramid(corners_of<5>(cell, points), running);
+      return add_pyramid(node_positions<5>(cell, points), running);
     case CellKind::kWedge:
-      jacobian = scaled_jacobian_wedge(corners_of<6>(cell, points));
+      jacobian = scaled_jacobian_wedge(node_positions<6>(cell, points));
       running.wedges = std::min(running.wedges, jacobian);
       break;
     case CellKind::kHex:
-      jacobian = scaled_jacobian_hex(corners_of<8>(cell, points));
+      jacobian = scaled_jacobian_hex(node_positions<8>(cell, points));
       running.hexes = std::min(running.hexes, jacobian);
       break;
   }

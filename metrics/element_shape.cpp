@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include "metrics/element_corners.hpp"
 #include "metrics/element_quality.hpp"
 #include "metrics/element_shapes.hpp"
 #include "metrics/order_statistics.hpp"
@@ -18,21 +19,6 @@ using nlohmann::json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPoorShape = 0.3;
-
-struct Corner {
-  std::size_t at, next, previous, up;  // right-handed edges from `at`
-};
-constexpr std::array<Corner, 4> kPyramidCorners{{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
-constexpr std::array<Corner, 6> kWedgeCorners{
-    {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
-constexpr std::array<Corner, 8> kHexCorners{{{0, 1, 3, 4},
-                                             {1, 2, 0, 5},
-                                             {2, 3, 1, 6},
-                                             {3, 0, 2, 7},
-                                             {4, 7, 5, 0},
-                                             {5, 4, 6, 1},
-                                             {6, 5, 7, 2},
-                                             {7, 6, 4, 3}}};
 
 // The edges of each kind of cell by local node numbers.
 constexpr std::array<LocalEdge, 6> kTetEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
@@ -69,33 +55,21 @@ double corner_mean_ratio(const Vec3& e1, const Vec3& e2, const Vec3& e3, const I
 template <std::size_t Corners, std::size_t Points>
 double smallest_mean_ratio(const std::array<Corner, Corners>& corners, const std::array<Vec3, Points>& p,
                            const IdealCorner& ideal) {
-  double smallest = kInfinity;
-  for (const Corner& c : corners) {
-    const Vec3& o = p[c.at];
-    smallest = std::min(smallest, corner_mean_ratio(p[c.next] - o, p[c.previous] - o, p[c.up] - o, ideal));
-  }
-  return smallest;
-}
-
-template <std::size_t N>
-std::array<Vec3, N> corners_of(const CellView& cell, const std::vector<Vec3>& points) {
-  std::array<Vec3, N> p;
-  for (std::size_t n = 0; n < N; ++n) {
-    p[n] = points[cell.nodes[n]];
-  }
-  return p;
+  return smallest_at_corners(corners, p, [&](const Vec3& e1, const Vec3& e2, const Vec3& e3) {
+    return corner_mean_ratio(e1, e2, e3, ideal);
+  });
 }
 
 double mean_ratio(const CellView& cell, const std::vector<Vec3>& points) {
   switch (cell.kind) {
     case CellKind::kTet:
-      return mean_ratio_tet(corners_of<4>(cell, points));
+      return mean_ratio_tet(node_positions<4>(cell, points));
     case CellKind::kPyramid:
-      return mean_ratio_pyramid(corners_of<5>(cell, points));
+      return mean_ratio_pyramid(node_positions<5>(cell, points));
     case CellKind::kWedge:
-      return mean_ratio_wedge(corners_of<6>(cell, points));
+      return mean_ratio_wedge(node_positions<6>(cell, points));
     case CellKind::kHex:
-      return mean_ratio_hex(corners_of<8>(cell, points));
+      return mean_ratio_hex(node_positions<8>(cell, points));
   }
   return 0;
 }
@@ -144,7 +118,7 @@ Values measure(const MeshView& view, const Groups& groups) {
     values.mean_ratio[at] = static_cast<float>(mean_ratio(cell, points));
     values.edge_ratio[at] = static_cast<float>(edge_ratio(cell, points));
     if (cell.kind == CellKind::kTet) {
-      const auto p = corners_of<4>(cell, points);
+      const auto p = node_positions<4>(cell, points);
       const std::size_t tet = groups.first_tet[label] + groups.place[c];
       values.radius_ratio[tet] = static_cast<float>(inverse_radius_ratio_tet(p));
       values.height_ratio[tet] = static_cast<float>(height_ratio_tet(p));
@@ -256,7 +230,7 @@ std::span<const LocalEdge> edges_of(CellKind kind) {
 }
 
 double mean_ratio_pyramid(const std::array<Vec3, 5>& p) {
-  return smallest_mean_ratio(kPyramidCorners, p, kPyramidCorner);
+  return smallest_mean_ratio(kPyramidBaseCorners, p, kPyramidCorner);
 }
 
 double mean_ratio_wedge(const std::array<Vec3, 6>& p) {

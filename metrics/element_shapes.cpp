@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "metrics/element_corners.hpp"
+
 namespace cbc3d::metrics {
 namespace {
 
@@ -18,32 +20,6 @@ double safe_ratio(double numerator, double denominator) {
 double corner_jacobian(const Vec3& e1, const Vec3& e2, const Vec3& e3) {
   return safe_ratio(e1.dot(e2.cross(e3)), e1.norm() * e2.norm() * e3.norm());
 }
-
-struct Corner {
-  std::size_t at, next, previous, up;  // right-handed edges from `at`
-};
-
-template <std::size_t Corners, std::size_t Points>
-double smallest_corner(const std::array<Corner, Corners>& corners, const std::array<Vec3, Points>& p) {
-  double smallest = kInfinity;
-  for (const Corner& c : corners) {
-    const Vec3& o = p[c.at];
-    smallest = std::min(smallest, corner_jacobian(p[c.next] - o, p[c.previous] - o, p[c.up] - o));
-  }
-  return smallest;
-}
-
-constexpr std::array<Corner, 4> kPyramidCorners{{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
-constexpr std::array<Corner, 6> kWedgeCorners{
-    {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
-constexpr std::array<Corner, 8> kHexCorners{{{0, 1, 3, 4},
-                                             {1, 2, 0, 5},
-                                             {2, 3, 1, 6},
-                                             {3, 0, 2, 7},
-                                             {4, 7, 5, 0},
-                                             {5, 4, 6, 1},
-                                             {6, 5, 7, 2},
-                                             {7, 6, 4, 3}}};
 
 }  // namespace
 
@@ -81,18 +57,18 @@ double scaled_jacobian_pyramid(const std::array<Vec3, 5>& p) {
 }
 
 double scaled_jacobian_pyramid_bcc(const std::array<Vec3, 5>& p) {
-  return std::numbers::sqrt3 * smallest_corner(kPyramidCorners, p);
+  return std::numbers::sqrt3 * smallest_at_corners(kPyramidBaseCorners, p, corner_jacobian);
 }
 
 double scaled_jacobian_wedge(const std::array<Vec3, 6>& p) {
-  return 2 / std::numbers::sqrt3 * smallest_corner(kWedgeCorners, p);
+  return 2 / std::numbers::sqrt3 * smallest_at_corners(kWedgeCorners, p, corner_jacobian);
 }
 
 double scaled_jacobian_hex(const std::array<Vec3, 8>& p) {
   const Vec3 x = (p[1] + p[2] + p[5] + p[6]) - (p[0] + p[3] + p[4] + p[7]);
   const Vec3 y = (p[2] + p[3] + p[6] + p[7]) - (p[0] + p[1] + p[4] + p[5]);
   const Vec3 z = (p[4] + p[5] + p[6] + p[7]) - (p[0] + p[1] + p[2] + p[3]);
-  return std::min(smallest_corner(kHexCorners, p), corner_jacobian(x, y, z));
+  return std::min(smallest_at_corners(kHexCorners, p, corner_jacobian), corner_jacobian(x, y, z));
 }
 
 double radius_ratio_tet(const std::array<Vec3, 4>& p) {

@@ -21,23 +21,12 @@ struct EdgeAngle {
   double angle, length;
 };
 
-std::size_t corners_of(const NumberedFacet& facet) {
-  return facet.corner[3] == NumberedFacet::kNoCorner ? 3 : 4;
-}
-
-// Half the cross product of the diagonals of a quad, of two sides of a triangle.
-Vec3 area_vector(const NumberedFacet& facet) {
-  const auto& p = facet.at;
-  return corners_of(facet) == 3 ? 0.5 * (p[1] - p[0]).cross(p[2] - p[0])
-                                : 0.5 * (p[2] - p[0]).cross(p[3] - p[1]);
-}
-
 std::vector<FacetEdge> sorted_edges(const std::vector<NumberedFacet>& facets) {
   std::vector<FacetEdge> edges;
   edges.reserve(3 * facets.size());
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const NumberedFacet& facet = facets[f];
-    const std::size_t corners = corners_of(facet);
+    const std::size_t corners = corner_count(facet);
     for (std::size_t n = 0; n < corners; ++n) {
       const std::size_t next = (n + 1) % corners;
       const auto [low, high] = std::minmax(facet.corner[n], facet.corner[next]);

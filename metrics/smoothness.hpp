@@ -19,6 +19,19 @@ struct NumberedFacet {
   std::array<Vec3, 4> at;
 };
 
+/// Three or four.
+inline std::size_t corner_count(const NumberedFacet& facet) {
+  return facet.corner[3] == NumberedFacet::kNoCorner ? 3 : 4;
+}
+
+/// Along the normal, as long as the area: half the cross product of two sides of a triangle, of the diagonals
+/// of a quad.
+inline Vec3 area_vector(const NumberedFacet& facet) {
+  const auto& p = facet.at;
+  return corner_count(facet) == 3 ? 0.5 * (p[1] - p[0]).cross(p[2] - p[0])
+                                  : 0.5 * (p[2] - p[0]).cross(p[3] - p[1]);
+}
+
 /// Angles are between the normals of the two facets at an edge (0: flat, 90: the edge of a box), over the
 /// edges with exactly two facets, each edge by its length.
 struct Smoothness {

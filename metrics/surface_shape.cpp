@@ -23,23 +23,13 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kToleranceDeg = 1e-6;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-std::size_t corners_of(const NumberedFacet& facet) {
-  return facet.corner[3] == NumberedFacet::kNoCorner ? 3 : 4;
-}
-
-Vec3 area_vector(const NumberedFacet& facet) {
-  const auto& p = facet.at;
-  return corners_of(facet) == 3 ? 0.5 * (p[1] - p[0]).cross(p[2] - p[0])
-                                : 0.5 * (p[2] - p[0]).cross(p[3] - p[1]);
-}
-
 double angle_deg(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
 }
 
 double facet_mean_ratio(const NumberedFacet& facet) {
   const auto& p = facet.at;
-  if (corners_of(facet) == 3) {
+  if (corner_count(facet) == 3) {
     const double squares =
         (p[1] - p[0]).squared_norm() + (p[2] - p[1]).squared_norm() + (p[0] - p[2]).squared_norm();
     return squares > 0 ? 4 * std::numbers::sqrt3 * area_vector(facet).norm() / squares : 0;
@@ -95,7 +85,7 @@ class Sheet {
   [[nodiscard]] std::uint32_t most_pointed(std::span<const std::uint32_t> vertices) const;
   [[nodiscard]] SharpPlace place_of(const SharpElement& element) const;
   [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t facet) const {
-    return {vertex_[facet].data(), corners_of(facets_[facet])};
+    return {vertex_[facet].data(), corner_count(facets_[facet])};
   }
 
   std::vector<NumberedFacet> facets_;
@@ -114,14 +104,14 @@ void Sheet::number_vertices() {
   ids.reserve(4 * facets_.size());
   for (const NumberedFacet& facet : facets_) {
     ids.insert(ids.end(), facet.corner.begin(),
-               facet.corner.begin() + static_cast<std::ptrdiff_t>(corners_of(facet)));
+               facet.corner.begin() + static_cast<std::ptrdiff_t>(corner_count(facet)));
   }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   points_.resize(ids.size());
   vertex_.resize(facets_.size());
   for (std::size_t f = 0; f < facets_.size(); ++f) {
-    for (std::size_t n = 0; n < corners_of(facets_[f]); ++n) {
+    for (std::size_t n = 0; n < corner_count(facets_[f]); ++n) {
       const auto found = std::lower_bound(ids.begin(), ids.end(), facets_[f].corner[n]);
       vertex_[f][n] = static_cast<std::uint32_t>(found - ids.begin());
       points_[vertex_[f][n]] = facets_[f].at[n];

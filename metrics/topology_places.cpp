@@ -131,11 +131,8 @@ std::vector<std::vector<Vec3>> cavity_walls(const MeshView& view, const Surface&
   };
   const std::vector<NumberedFacet> facets = numbered_facets(surface, label, view.mesh().points);
   std::vector<Side> sides;
-  const auto corners_of = [](const NumberedFacet& facet) {
-    return facet.corner[3] == NumberedFacet::kNoCorner ? std::size_t{3} : std::size_t{4};
-  };
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
-    const std::size_t corners = corners_of(facets[f]);
+    const std::size_t corners = corner_count(facets[f]);
     for (std::size_t n = 0; n < corners; ++n) {
       const auto [low, high] = std::minmax(facets[f].corner[n], facets[f].corner[(n + 1) % corners]);
       sides.push_back({low, high, f});
@@ -154,7 +151,7 @@ std::vector<std::vector<Vec3>> cavity_walls(const MeshView& view, const Surface&
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
     const std::uint32_t root = sets.root(f);
     const auto& p = facets[f].at;
-    for (std::size_t n = 2; n < corners_of(facets[f]); ++n) {
+    for (std::size_t n = 2; n < corner_count(facets[f]); ++n) {
       volumes[root] += six_volumes(facets[root].at[0], p[0], p[n - 1], p[n]);
     }
   }
@@ -171,7 +168,7 @@ std::vector<std::vector<Vec3>> cavity_walls(const MeshView& view, const Surface&
     }
     std::vector<Vec3>& wall = walls[number[root]];
     wall.insert(wall.end(), facets[f].at.begin(),
-                facets[f].at.begin() + static_cast<std::ptrdiff_t>(corners_of(facets[f])));
+                facets[f].at.begin() + static_cast<std::ptrdiff_t>(corner_count(facets[f])));
   }
   return walls;
 }

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "baselines/core/program_file.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::baselines {
@@ -28,7 +29,7 @@ const ParameterSpecs& ParameterSource::in(const std::filesystem::path& bin_dir) 
 }
 
 std::filesystem::path program_folder() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  return program_file().parent_path();
 }
 
 Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,

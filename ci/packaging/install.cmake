@@ -1,5 +1,7 @@
 # `cmake --install` and `cpack -G DEB`: libraries with their headers and CMake package, programs, cases, documents.
 include(CMakePackageConfigHelpers)
+# Of the two packages; an installation by CMake has both.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME main)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cbc3d)
 set(doc_dir ${CMAKE_INSTALL_DATADIR}/doc/cbc3d)
 
@@ -22,6 +24,14 @@ install(SCRIPT ci/packaging/install_headers.cmake)
 # The bench looks for its programs beside itself and for its cases in ../share/cbc3d/cases.
 get_property(programs GLOBAL PROPERTY CBC3D_INSTALLED_PROGRAMS)
 if(CBC3D_PROGRAMS)
+  # The other meshers contain CGAL's (GPL) and TetGen (AGPL), which whoever wants cbc3d alone need not install.
+  set(other_meshers ${programs})
+  list(FILTER other_meshers INCLUDE REGEX "^cbc3d-mesher-")
+  list(FILTER programs EXCLUDE REGEX "^cbc3d-mesher-")
+  if(other_meshers)
+    install(TARGETS ${other_meshers} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT baselines)
+    install(FILES ci/packaging/copyright-baselines DESTINATION ${doc_dir}-baselines RENAME copyright COMPONENT baselines)
+  endif()
   install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY cases/manifests/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cbc3d/cases FILES_MATCHING PATTERN "*.json")
 endif()
@@ -40,14 +50,26 @@ endif()
 execute_process(COMMAND dpkg --print-architecture OUTPUT_VARIABLE architecture OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cbc3d)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL main)
+if(other_meshers)
+  list(APPEND CPACK_COMPONENTS_ALL baselines)
+endif()
 set(CPACK_PACKAGE_CONTACT "The CBC3D developers <cbc3d@example.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_DEBIAN_FILE_NAME cbc3d-${PROJECT_VERSION}-${architecture}.deb)
+set(CPACK_DEBIAN_MAIN_PACKAGE_NAME cbc3d)
+set(CPACK_DEBIAN_MAIN_FILE_NAME cbc3d-${PROJECT_VERSION}-${architecture}.deb)
+set(CPACK_COMPONENT_MAIN_DESCRIPTION "Meshes segmented images, judges meshes and compares meshers.")
+set(CPACK_DEBIAN_BASELINES_PACKAGE_NAME cbc3d-baselines)
+set(CPACK_DEBIAN_BASELINES_FILE_NAME cbc3d-baselines-${PROJECT_VERSION}-${architecture}.deb)
+set(CPACK_COMPONENT_BASELINES_DESCRIPTION
+  "The programs by which cbc3d-bench runs CGAL's Mesh_3 (GPL) and TetGen (AGPL) beside cbc3d.")
+set(CPACK_DEBIAN_BASELINES_PACKAGE_DEPENDS "cbc3d (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${architecture})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For those who compile against the libraries, and for the pictures of a run without a screen.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "g++, cmake, libinsighttoolkit5-dev, libvtk9-dev, zlib1g-dev, libdeflate-dev, xvfb, xauth, libgl1-mesa-dri, librsvg2-bin")
+set(CPACK_DEBIAN_MAIN_PACKAGE_SUGGESTS
+  "cbc3d-baselines, g++, cmake, libinsighttoolkit5-dev, libvtk9-dev, zlib1g-dev, libdeflate-dev, xvfb, xauth, libgl1-mesa-dri, librsvg2-bin")
 include(CPack)

@@ -2,23 +2,18 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 
 #include "mesher/testing/run_command.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::testing {
 
 class CommandTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("cbc3d-command-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
   /// Expects exit 2, one line with the text on the fault and no file of the name given.
@@ -31,7 +26,8 @@ class CommandTest : public ::testing::Test {
     EXPECT_FALSE(std::filesystem::exists(folder_ / output));
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_{"command"};
+  std::filesystem::path folder_ = temporary_.path();
 };
 
 }  // namespace cbc3d::testing

@@ -3,18 +3,18 @@
 #include <itkBMPImageIO.h>
 #include <itkPNGImageIO.h>
 #include <itkTIFFImageIO.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
 
+#include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
 
 namespace cbc3d {
 namespace {
 namespace fs = std::filesystem;
+
+using testing::Outcome;
 
 constexpr std::size_t kWidth = 7, kHeight = 5;
 
@@ -46,29 +46,11 @@ std::vector<Value> slice(int k) {
   return values;
 }
 
-struct Outcome {
-  int exit_code;
-  std::string text;
-};
-
-class Tile : public ::testing::Test {
+class Tile : public testing::CommandTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("cbc3d-tile-" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
+  /// With the folder of the files as the working directory.
   [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string line =
-        "cd " + folder_.string() + " && " + CBC3D_COMMAND + " tile " + arguments + " --quiet 2>&1";
-    std::FILE* pipe = ::popen(line.c_str(), "r");
-    std::string text;
-    std::array<char, 1024> buffer;
-    while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
-      text += buffer.data();
-    }
-    return {WEXITSTATUS(::pclose(pipe)), text};
+    return testing::run_command("tile " + arguments + " --quiet", folder_);
   }
   void expect_volume(const std::string& name) const {
     const LabelImage volume = read_label_image(folder_ / name);
@@ -83,7 +65,6 @@ class Tile : public ::testing::Test {
       }
     }
   }
-  fs::path folder_;
 };
 
 const std::string kPlace = " --spacing .012,.013,.024 --origin 1,-2,3";

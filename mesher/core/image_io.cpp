@@ -1,9 +1,6 @@
 #include "mesher/core/image_io.hpp"
 
 #include <itkImageIOFactory.h>
-#include <itkMetaImageIOFactory.h>
-#include <itkNiftiImageIOFactory.h>
-#include <itkNrrdImageIOFactory.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +11,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/frame_check.hpp"
 #include "mesher/core/inrimage.hpp"
+#include "mesher/core/itk_formats.hpp"
 #include "mesher/core/label_classifier.hpp"
 #include "mesher/core/mapped_voxels.hpp"
 #include "mesher/core/packed_voxels.hpp"
@@ -225,18 +223,6 @@ LabelImage read_from_inrimage(const fs::path& path) {
   return image;
 }
 
-/// ITK registers its readers at static initialisation only where they are linked dynamically through its own
-/// macro; registering the three promised formats costs nothing and does not depend on that.
-void register_formats() {
-  static const bool registered = [] {
-    itk::NiftiImageIOFactory::RegisterOneFactory();
-    itk::NrrdImageIOFactory::RegisterOneFactory();
-    itk::MetaImageIOFactory::RegisterOneFactory();
-    return true;
-  }();
-  static_cast<void>(registered);
-}
-
 template <typename T>
 std::vector<T> label_values(const LabelImage& image) {
   std::vector<T> values(image.voxels.size());
@@ -290,7 +276,7 @@ LabelImage read_label_image(const fs::path& path) {
   if (fs::is_directory(path, error)) {
     fail(path, "it is a folder; name an image file");
   }
-  register_formats();
+  register_itk_formats();
   LabelImage image = has_inrimage_extension(path) ? read_from_inrimage(path) : read_with_itk(path);
   if (image.labels.size() < 2) {
     fail(path, "every voxel is background (0); there is nothing to mesh");
@@ -299,7 +285,7 @@ LabelImage read_label_image(const fs::path& path) {
 }
 
 void write_label_image(const LabelImage& image, const fs::path& path) {
-  register_formats();
+  register_itk_formats();
   const std::string extension = image_extension(path);
   AtomicFile file(path);
   fs::path temporary = file.temporary();

@@ -6,9 +6,6 @@
 #include <itkImageFileReader.h>
 #include <itkImageRegionIterator.h>
 #include <itkImageRegionIteratorWithIndex.h>
-#include <itkMetaImageIOFactory.h>
-#include <itkNiftiImageIOFactory.h>
-#include <itkNrrdImageIOFactory.h>
 #include <itkRegionOfInterestImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 #include <itkSmoothingRecursiveGaussianImageFilter.h>
@@ -18,6 +15,7 @@
 #include <cmath>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/itk_formats.hpp"
 
 namespace cbc3d {
 namespace {
@@ -31,19 +29,8 @@ std::string text_of(const Vec3& p) {
   return std::to_string(p.x) + "," + std::to_string(p.y) + "," + std::to_string(p.z);
 }
 
-/// A static library's formats are not registered by themselves.
-void register_formats() {
-  static const bool registered = [] {
-    itk::NiftiImageIOFactory::RegisterOneFactory();
-    itk::NrrdImageIOFactory::RegisterOneFactory();
-    itk::MetaImageIOFactory::RegisterOneFactory();
-    return true;
-  }();
-  static_cast<void>(registered);
-}
-
 Grey::Pointer read_grey(const fs::path& path) {
-  register_formats();
+  register_itk_formats();
   if (!fs::is_regular_file(path)) {
     throw InputError("cannot read '" + path.string() + "': no such file; check its name");
   }

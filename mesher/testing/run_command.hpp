@@ -17,8 +17,10 @@ struct Outcome {
   std::string text;  ///< both streams
 };
 
-inline Outcome run_command(const std::string& arguments) {
-  const std::string command = std::string(CBC3D_COMMAND) + " " + arguments + " 2>&1";
+/// `folder` becomes its working directory; empty: that of the test.
+inline Outcome run_command(const std::string& arguments, const std::filesystem::path& folder = {}) {
+  const std::string place = folder.empty() ? "" : "cd '" + folder.string() + "' && ";
+  const std::string command = place + CBC3D_COMMAND + " " + arguments + " 2>&1";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   std::string text;
   std::array<char, 4096> buffer;

@@ -6,46 +6,29 @@
 #include <limits>
 
 #include "mesher/core/error.hpp"
+#include "metrics/element_corners.hpp"
 
 namespace cbc3d::solver {
 
 namespace {
 
-/// A corner of a cell and three of its neighbours, ordered so that the determinant of the edges to them is
-/// positive where the cell is.
-using Corner = std::array<int, 4>;
+using metrics::Corner;
 
-// The node orders of mesh.hpp. At the apex of a pyramid, where four edges meet, each three of them are
-// checked.
-constexpr std::array<Corner, 1> kTetCorners = {{{0, 1, 2, 3}}};
-constexpr std::array<Corner, 8> kPyramidCorners = {{{0, 1, 3, 4},
-                                                    {1, 2, 0, 4},
-                                                    {2, 3, 1, 4},
-                                                    {3, 0, 2, 4},
-                                                    {4, 1, 0, 2},
-                                                    {4, 2, 1, 3},
-                                                    {4, 3, 2, 0},
-                                                    {4, 0, 3, 1}}};
-constexpr std::array<Corner, 6> kWedgeCorners = {
-    {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
-constexpr std::array<Corner, 8> kHexCorners = {{{0, 1, 3, 4},
-                                                {1, 2, 0, 5},
-                                                {2, 3, 1, 6},
-                                                {3, 0, 2, 7},
-                                                {4, 7, 5, 0},
-                                                {5, 4, 6, 1},
-                                                {6, 5, 7, 2},
-                                                {7, 6, 4, 3}}};
+constexpr std::array<Corner, 1> kTetCorners{{{0, 1, 2, 3}}};
+constexpr std::array<Corner, 8> kPyramidCorners = [] {
+  std::array<Corner, 8> corners{};
+  std::copy(metrics::kPyramidBaseCorners.begin(), metrics::kPyramidBaseCorners.end(), corners.begin());
+  std::copy(metrics::kPyramidApexCorners.begin(), metrics::kPyramidApexCorners.end(), corners.begin() + 4);
+  return corners;
+}();
 
 template <int Nodes, std::size_t Corners>
 void require_positive(const Mesh& mesh, const CellBlock<Nodes>& block,
                       const std::array<Corner, Corners>& corners, const char* kind, const std::string& name) {
   const auto folded = [&](const auto& cell) {
-    const auto at = [&](int node) -> const Vec3& {
-      return mesh.points[cell[static_cast<std::size_t>(node)]];
-    };
+    const auto at = [&](std::size_t node) -> const Vec3& { return mesh.points[cell[node]]; };
     return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) {
-      return !(six_volumes(at(c[0]), at(c[1]), at(c[2]), at(c[3])) > 0);
+      return !(six_volumes(at(c.at), at(c.next), at(c.previous), at(c.up)) > 0);
     });
   };
   std::size_t count = 0, first = 0;
@@ -121,8 +104,8 @@ FiniteElementMesh::FiniteElementMesh(const Mesh& mesh, const std::string& name) 
   }
   require_positive(mesh, mesh.tets, kTetCorners, "tets", name);
   require_positive(mesh, mesh.pyramids, kPyramidCorners, "pyramids", name);
-  require_positive(mesh, mesh.wedges, kWedgeCorners, "wedges", name);
-  require_positive(mesh, mesh.hexes, kHexCorners, "hexes", name);
+  require_positive(mesh, mesh.wedges, metrics::kWedgeCorners, "wedges", name);
+  require_positive(mesh, mesh.hexes, metrics::kHexCorners, "hexes", name);
   box_ = bounding_box(mesh);
   // Vertices at one place stay apart: a mesh that is not joined there must not be joined here.
   for (const Vec3& p : mesh.points) {

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/tables/testing_tables.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 TEST(Figures, EveryCaseHasAllMeshersInThePlaneOfDistanceAndAngle) {
   Json a = job_line("nidus", "cbc3d", 100), b = job_line("nidus", "cgal", 100);

@@ -159,9 +159,7 @@ Command add_evaluate_command(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_phantom_options(*parser, options);
-  parser->add_option("--threads", options->threads, "threads; 0: all cores")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_threads_option(parser, options->threads);
   parser->add_flag("--quiet", options->quiet, "no progress and no figures on the screen");
   return {parser, [options] { return evaluate(*options); }};
 }

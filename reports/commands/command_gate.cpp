@@ -79,7 +79,7 @@ Command add_gate_command(CLI::App& app) {
       ->check([](const std::string& text) {
         return text.find_first_not_of(" \t") == std::string::npos ? "give a reason" : std::string();
       });
-  parser->add_option("--threads", options->threads, "threads (comparing needs one)")->capture_default_str();
+  add_idle_threads_option(parser, options->threads, "comparing needs");
   parser->add_flag("--quiet", options->quiet, "print nothing when the gate holds");
   return {parser, [options] { return gate(*options); }};
 }

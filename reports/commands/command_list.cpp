@@ -85,7 +85,7 @@ Command add_list_command(CLI::App& app) {
       ->allow_extra_args(false);
   parser->add_option("--manifests", options->manifests,
                      "folder of case manifests, *.json; default: the installed ones");
-  parser->add_option("--threads", options->threads, "threads (listing needs one)")->capture_default_str();
+  add_idle_threads_option(parser, options->threads, "listing needs");
   parser->add_flag("--quiet", options->quiet, "no progress (listing shows none)");
   return {parser, [options] {
             if (options->what == "meshers") {

@@ -62,9 +62,7 @@ Command add_phantom_command(CLI::App& app) {
       ->delimiter(',')
       ->expected(3);
   parser->add_option("--seed", options->seed, "seed of the random choices")->capture_default_str();
-  parser->add_option("--threads", options->threads, "threads; 0: all cores")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_threads_option(parser, options->threads);
   parser->add_flag("--quiet", options->quiet, "print nothing");
   return {parser, [options] { return write_phantom(*options); }};
 }

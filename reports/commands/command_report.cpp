@@ -63,7 +63,7 @@ Command add_report_command(CLI::App& app) {
   parser->add_option("--manifests", options->manifests,
                      "folder of case manifests, *.json; default: the installed ones");
   parser->add_flag("!--no-pictures", options->pictures, "do not draw pictures that are missing");
-  parser->add_option("--threads", options->threads, "threads (writing needs one)")->capture_default_str();
+  add_idle_threads_option(parser, options->threads, "writing needs");
   parser->add_flag("--quiet", options->quiet, "no progress");
   return {parser, [options] { return write_report(*options); }};
 }

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace cbc3d::reports {
@@ -12,6 +13,17 @@ struct Command {
   CLI::App* parser;
   std::function<int()> run;
 };
+
+/// Adds the --threads of a command that is done by one thread, `work` ("merging needs").
+inline void add_idle_threads_option(CLI::App* parser, int& threads, const std::string& work) {
+  parser->add_option("--threads", threads, "threads (" + work + " one)")->capture_default_str();
+}
+/// Adds the --threads of a command that is done by several.
+inline void add_threads_option(CLI::App* parser, int& threads) {
+  parser->add_option("--threads", threads, "threads; 0: all cores")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
 
 Command add_list_command(CLI::App& app);
 Command add_run_command(CLI::App& app);

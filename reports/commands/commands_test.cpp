@@ -7,16 +7,18 @@
 
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/results/result.hpp"
-#include "reports/results/testing_folder.hpp"
 #include "reports/run/child_process.hpp"
 
 namespace cbc3d::reports {
 namespace {
 
+using cbc3d::testing::TemporaryFolder;
+
 ChildResult bench(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), BENCH);
-  return run_child({arguments, 1, 120, 0});
+  return run_child({arguments, 1, 0, 0});
 }
 
 Json read_json(const std::filesystem::path& file) {

@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "mesher/core/atomic_file.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/output/output.hpp"
-#include "reports/results/testing_folder.hpp"
 #include "reports/sweep/testing_sweep.hpp"
 #include "reports/tables/tables.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;

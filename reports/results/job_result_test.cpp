@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "mesher/core/error.hpp"
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::reports {
 namespace {
 
+using cbc3d::testing::TemporaryFolder;
 using metrics::metric_id;
 
 TEST(JobResult, IsDecodedFromItsLine) {

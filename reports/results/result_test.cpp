@@ -8,11 +8,13 @@
 #include <regex>
 
 #include "mesher/core/error.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "metrics/catalog.hpp"
-#include "reports/results/testing_folder.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 Json line(const std::string& case_name, int repeat) {
   Json result = empty_result();

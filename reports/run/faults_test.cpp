@@ -1,37 +1,31 @@
 // Twelve planted faults: each must end in the right row or the right message, and the run must go on.
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <csignal>
-#include <fstream>
-#include <thread>
 
 #include "cases/core/sha256.hpp"
 #include "mesher/core/atomic_file.hpp"
-#include "mesher/core/image_io.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/results/result.hpp"
-#include "reports/results/testing_folder.hpp"
 #include "reports/run/child_process.hpp"
+#include "reports/run/testing_mesher.hpp"
+#include "reports/run/testing_processes.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
+using test::kNoTimeLimit;
 namespace fs = std::filesystem;
 
-class Faults : public testing::Test {
+// The command wants a limit of some kind for the meshers.
+constexpr const char* kAmpleTimeS = "100000";
+
+class Faults : public ::testing::Test {
  protected:
   Faults() {
     for (const fs::path& folder : {manifests_, data_}) {
       fs::create_directories(folder);
     }
-    LabelImage image;
-    image.frame.size = {8, 8, 8};
-    image.labels = {0, 1};
-    image.voxels.assign(image.frame.voxel_count(), 0);
-    for (int n = 1; n < 7; ++n) {
-      image.voxels[image.frame.offset(n, 1, 1)] = 1;
-    }
-    write_label_image(image, data_ / "box.nrrd");
+    test::write_row_image(data_ / "box.nrrd");
     const Json manifest{{"name", "box"},
                         {"title", "A box"},
                         {"suites", {"test"}},
@@ -55,9 +49,10 @@ class Faults : public testing::Test {
     return path;
   }
 
-  std::vector<std::string> command(const std::vector<std::string>& files, const fs::path& out) const {
-    std::vector<std::string> argv{BENCH,    "run", "--case",        "box",    "--manifests",    manifests_,
-                                  "--data", data_, "--timeout",     "8",      "--memory-limit", "0.25",
+  std::vector<std::string> command(const std::vector<std::string>& files, const fs::path& out,
+                                   const std::string& timeout_s = kAmpleTimeS) const {
+    std::vector<std::string> argv{BENCH,    "run", "--case",        "box",     "--manifests",    manifests_,
+                                  "--data", data_, "--timeout",     timeout_s, "--memory-limit", "0.25",
                                   "--out",  out,   "--no-pictures", "--quiet"};
     for (const std::string& file : files) {
       const std::string name = fs::path(file).stem();
@@ -66,7 +61,7 @@ class Faults : public testing::Test {
     return argv;
   }
   ChildResult run(const std::vector<std::string>& files, const fs::path& out) const {
-    return run_child({command(files, out), 1, 120, 0});
+    return run_child({command(files, out), 1, kNoTimeLimit, 0});
   }
   static Json line_of(const fs::path& out, const std::string& name) {
     for (const Json& line : read_results(out / "results.jsonl")) {
@@ -83,35 +78,20 @@ class Faults : public testing::Test {
   fs::path out_ = folder_.path() / "out";
 };
 
-bool is_gone(const fs::path& pid_file) {
-  pid_t process = 0;
-  std::ifstream(pid_file) >> process;
-  for (int n = 0; n < 200 && ::kill(process, 0) == 0; ++n) {
-    std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-    std::string id, name, state;
-    if (stat >> id >> name >> state && state == "Z") {
-      return true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return process > 0 && ::kill(process, 0) != 0;
-}
-
 TEST_F(Faults, OfMeshersAreRowsAndTheRunGoesOn) {
   fs::copy_file(TEST_CHILD, folder_.path() / "forbidden");
   fs::permissions(folder_.path() / "forbidden", fs::perms::owner_read);
   const std::string child = TEST_CHILD;
   const ChildResult result =
-      run({mesher("crash", child, "crash"), mesher("hang", child, "sleep"),
-           mesher("grandchild", child, "mesh-and-daemon"), mesher("hog", child, "allocate"),
-           mesher("garbage", child, "garbage"), mesher("labels", child, "wrong-label"),
-           mesher("truncated", child, "truncated"), mesher("missing", "/nowhere/mesher", "x"),
-           mesher("forbidden", folder_.path() / "forbidden", "x"), mesher("good", child, "mesh")},
+      run({mesher("crash", child, "crash"), mesher("grandchild", child, "mesh-and-daemon"),
+           mesher("hog", child, "allocate"), mesher("garbage", child, "garbage"),
+           mesher("labels", child, "wrong-label"), mesher("truncated", child, "truncated"),
+           mesher("missing", "/nowhere/mesher", "x"), mesher("forbidden", folder_.path() / "forbidden", "x"),
+           mesher("good", child, "mesh")},
           out_);
   ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
   const std::vector<std::array<std::string, 3>> expected{
       {"crash", "crashed", "SIGSEGV (Segmentation fault); last line: about to crash"},
-      {"hang", "timeout", "not done after 8 s"},
       {"grandchild", "ok", ""},
       {"hog", "out_of_memory", "used more than 0.25 GiB"},
       {"garbage", "failed", "meshed, but the evaluation did not end: "},
@@ -125,10 +105,19 @@ TEST_F(Faults, OfMeshersAreRowsAndTheRunGoesOn) {
     EXPECT_EQ(line.value("status", ""), status) << name << line.value("reason", "");
     EXPECT_NE(line.value("reason", "").find(reason), std::string::npos) << line.value("reason", "");
   }
-  EXPECT_TRUE(is_gone(out_ / "logs" / "box-external_grandchild-t1-r0.report.json.pid"));
+  EXPECT_TRUE(
+      test::is_gone(test::await_process(out_ / "logs" / "box-external_grandchild-t1-r0.report.json.pid")));
   EXPECT_EQ(line_of(out_, "labels")["fidelity"]["missing_labels"], Json::array({1}));
   EXPECT_NE(line_of(out_, "garbage")["reason"].get<std::string>().find(".vtu"), std::string::npos);
   EXPECT_EQ(line_of(out_, "good")["time_s"]["mesh"], 1.5);
+}
+
+TEST_F(Faults, AMesherThatHangsIsEndedAtTheTimeLimit) {
+  const ChildResult result =
+      run_child({command({mesher("hang", TEST_CHILD, "sleep")}, out_, "0.5"), 1, kNoTimeLimit, 0});
+  ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
+  EXPECT_EQ(line_of(out_, "hang")["status"], "timeout");
+  EXPECT_EQ(line_of(out_, "hang")["reason"], "not done after 0.5 s");
 }
 
 TEST_F(Faults, AFullDiskIsAnErrorAndLeavesNoHalfLine) {
@@ -136,14 +125,14 @@ TEST_F(Faults, AFullDiskIsAnErrorAndLeavesNoHalfLine) {
   std::vector<std::string> argv{"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 3; exec \"$@\"", "sh"};
   const auto rest = command({mesher("good", TEST_CHILD, "mesh")}, out_);
   argv.insert(argv.end(), rest.begin(), rest.end());
-  const ChildResult result = run_child({argv, 1, 120, 0});
+  const ChildResult result = run_child({argv, 1, kNoTimeLimit, 0});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_NE(result.stderr_tail.find("results.jsonl': "), std::string::npos) << result.stderr_tail;
   EXPECT_NE(result.stderr_tail.find("--resume"), std::string::npos) << result.stderr_tail;
   EXPECT_EQ(fs::file_size(out_ / "results.jsonl"), 0U);
   std::vector<std::string> again = rest;
   again.emplace_back("--resume");
-  EXPECT_EQ(run_child({again, 1, 120, 0}).exit_code, 0);
+  EXPECT_EQ(run_child({again, 1, kNoTimeLimit, 0}).exit_code, 0);
   EXPECT_EQ(line_of(out_, "good")["status"], "ok");
 }
 
@@ -165,7 +154,7 @@ TEST_F(Faults, NamesWithBlanksAndQuotesAreNames) {
   fs::copy_file(TEST_CHILD, odd / "the mesher");
   std::vector<std::string> argv = command({mesher("odd", odd / "the mesher", "mesh")}, odd / "out put");
   argv.insert(argv.end(), {"--set", "external:odd.note=it's \"a\" note; rm -rf *"});
-  const ChildResult result = run_child({argv, 1, 120, 0});
+  const ChildResult result = run_child({argv, 1, kNoTimeLimit, 0});
   ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
   const Json line = line_of(odd / "out put", "odd");
   EXPECT_EQ(line["status"], "ok") << line["reason"];

@@ -3,42 +3,25 @@
 #include <fstream>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/error_of.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/run/folder_lock.hpp"
 #include "reports/run/merge.hpp"
 #include "reports/run/runner.hpp"
+#include "reports/run/testing_mesher.hpp"
+#include "reports/run/testing_processes.hpp"
 
 namespace cbc3d::reports {
 namespace {
 
-/// A mesher that is the test child in one of its modes.
-baselines::Adapter fake_mesher(const std::string& mode, bool available = true) {
-  baselines::Adapter adapter;
-  adapter.name = mode;
-  adapter.description = "a fake";
-  adapter.multithreaded = true;
-  adapter.parameters = {{"size", "1", "mm", "element size"}};
-  adapter.availability = [available](const std::filesystem::path&) {
-    return baselines::Availability{available, available ? "" : "not built; install it"};
-  };
-  adapter.command = [mode](const std::filesystem::path&, const baselines::MeshJob& job) {
-    return std::vector<std::string>{TEST_CHILD, mode, mode == "exit" ? "0" : job.mesh.string(), job.report};
-  };
-  return adapter;
-}
+using cbc3d::testing::error_of;
+using cbc3d::testing::TemporaryFolder;
+using test::fake_mesher;
 
-class Runner : public testing::Test {
+class Runner : public ::testing::Test {
  protected:
   Runner() {
-    LabelImage image;
-    image.frame.size = {8, 8, 8};
-    image.labels = {0, 1};
-    image.voxels.assign(image.frame.voxel_count(), 0);
-    for (int n = 1; n < 7; ++n) {
-      image.voxels[image.frame.offset(n, 1, 1)] = 1;
-    }
-    write_label_image(image, image_);
+    test::write_row_image(image_);
     bench_.cases.resize(1);
     bench_.cases[0].name = "box";
     bench_.cases[0].image_sha256 = "abc";
@@ -46,7 +29,7 @@ class Runner : public testing::Test {
     bench_.resolve_image = [this](const cases::Case&) { return cases::ResolvedImage{image_, ""}; };
     options_.out_dir = folder_.path() / "out";
     options_.threads = {1};
-    options_.timeout_s = 8;  // long enough to use up the memory on a busy machine
+    options_.timeout_s = test::kNoTimeLimit;
     options_.memory_limit_bytes = std::int64_t{256} << 20;
   }
 
@@ -67,12 +50,16 @@ class Runner : public testing::Test {
 };
 
 TEST_F(Runner, EveryKindOfEndIsALineAndTheRunGoesOn) {
-  run({"crash", "sleep", "allocate", "fail", "exit", "mesh"});
+  options_.timeout_s = 0.3;
+  run({"sleep"});
+  options_.timeout_s = test::kNoTimeLimit;
+  options_.resume = true;
+  run({"crash", "allocate", "fail", "exit", "mesh"});
   const std::vector<Json> results = lines();
   ASSERT_EQ(results.size(), 6U);
   const std::vector<std::pair<std::string, std::string>> expected{
+      {"timeout", "not done after 0.3 s"},
       {"crashed", "SIGSEGV (Segmentation fault); last line: about to crash"},
-      {"timeout", "not done after 8 s"},
       {"out_of_memory", "used more than 0.25 GiB"},
       {"failed", "no room left on the lattice"},
       {"failed", "the mesher ended with success but wrote no mesh"},
@@ -157,15 +144,6 @@ TEST_F(Runner, ResumeRunsOnlyWhatHasNoLine) {
   options_.parameters["mesh"]["size"] = "5";
   EXPECT_THROW(run({"mesh"}), InputError);
   EXPECT_EQ(lines().size(), 2U);
-}
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST_F(Runner, ResumeNoticesAnotherImageAndRunsAgainOnlyWhenTold) {

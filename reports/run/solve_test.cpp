@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 /// What comes of a program that is the test child in one of its modes.
 nlohmann::json solved_by(std::vector<std::string> mode, double timeout_s = 0) {

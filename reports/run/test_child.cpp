@@ -20,14 +20,15 @@ void sleep_long() {
   std::this_thread::sleep_for(std::chrono::seconds(120));
 }
 
-/// Touches memory until it is stopped, 16 MiB at a time.
+/// Touches 640 MiB, 16 at a time, and then waits to be stopped.
 int allocate() {
   std::vector<std::vector<char>> blocks;
-  for (int n = 0; n < 256; ++n) {
+  for (int n = 0; n < 40; ++n) {
     blocks.emplace_back(std::size_t{16} << 20, 'x');
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  return blocks.size() == 256 ? 0 : 1;
+  sleep_long();
+  return blocks.size() == 40 ? 0 : 1;
 }
 
 /// Leaves a grandchild sleeping and notes its id.

@@ -5,13 +5,14 @@
 #include <string>
 
 #include "baselines/core/adapter.hpp"
+#include "baselines/core/program_file.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::reports {
 namespace fs = std::filesystem;
 
 fs::path executable_file() {
-  return fs::read_symlink("/proc/self/exe");
+  return baselines::program_file();
 }
 
 fs::path bin_dir() {

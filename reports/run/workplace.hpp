@@ -6,9 +6,9 @@
 
 namespace cbc3d::reports {
 
-/// This executable's file, symbolic links resolved.
+/// This executable's file, symbolic links resolved. Throws JobError where /proc is not mounted.
 std::filesystem::path executable_file();
-/// The folder of this executable, in which the meshers' programs lie too.
+/// The folder of this executable, in which the meshers' programs lie too. Throws as above.
 std::filesystem::path bin_dir();
 /// The folder of the case manifests, PREFIX/share/cbc3d/cases. Throws InputError when it is not there.
 std::filesystem::path manifest_dir();

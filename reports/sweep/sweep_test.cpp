@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "mesher/core/atomic_file.hpp"
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/sweep/testing_sweep.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 TEST(Sweep, SpeedUpAndEfficiencyComeWithTheirErrors) {
   const std::vector<SweepPoint> points = sweep_points(decode_lines(sweep_lines()));

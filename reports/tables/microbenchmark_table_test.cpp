@@ -4,10 +4,12 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 TEST(MicrobenchmarkTable, JoinsTheFiles) {
   const TemporaryFolder folder;

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "mesher/core/atomic_file.hpp"
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/sweep/testing_sweep.hpp"
 #include "reports/tables/testing_tables.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 TEST(SweepTables, ShowMediansWithTheirErrorsAndOutliers) {
   const TemporaryFolder folder;

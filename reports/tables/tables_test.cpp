@@ -5,11 +5,13 @@
 #include <set>
 
 #include "mesher/core/error.hpp"
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/tables/testing_tables.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 TEST(Tables, AreWrittenInTheWantedForms) {
   const TemporaryFolder folder;

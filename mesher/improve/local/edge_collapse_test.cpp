@@ -15,14 +15,7 @@
 namespace cbc3d {
 namespace {
 
-using testing::cavity_and_torus;
-using testing::covered_count;
-using testing::expect_sound;
-using testing::kGoal;
-using testing::kGood;
-using testing::kRelax;
-using testing::touching_balls;
-using testing::Trial;
+using namespace testing;
 
 TEST(EdgeCollapse, RemovalAndCollapseMoveNoVolumeButAtTheBoundary) {
   Trial trial(touching_balls());

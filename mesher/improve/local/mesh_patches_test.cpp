@@ -14,13 +14,7 @@
 namespace cbc3d {
 namespace {
 
-using testing::covered_count;
-using testing::expect_sound;
-using testing::kGoal;
-using testing::kGood;
-using testing::kRelax;
-using testing::touching_balls;
-using testing::Trial;
+using namespace testing;
 
 TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
   Trial trial(touching_balls());
