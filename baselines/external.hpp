@@ -9,7 +9,7 @@
 //  "version_command": ["mytool", "--version"],          optional; its first line goes into the provenance
 //  "multithreaded": true, "deterministic": true,        optional; default: false, true
 //  "parameters": [{"key": "size", "default": "2", "unit": "mm", "description": "element size"}],    optional
-//  "size_dial": {"parameter": "size", "exponent": -3, "first": 2, "lowest": 0.01, "highest": 100}}    optional:
+//  "size_dial": {"parameter": "size", "exponent": -3, "first": 2, "lowest": 0.01, "highest": 100}} optional:
 //                                       elements ~ size^exponent, and the values from which and between which
 //                                       runs with budgets of elements seek it
 //
