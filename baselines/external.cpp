@@ -107,6 +107,30 @@ ParameterSpecs read_parameters(const Description& description) {
   return specs;
 }
 
+/// The size dial of `content`, whose parameter must be among `specs`.
+SizeDial read_size_dial(const Description& description, const ParameterSpecs& specs) {
+  const json& entry = description.content["size_dial"];
+  if (!entry.is_object()) description.fail("size_dial", "is " + entry.dump() + "; give an object");
+  description.require_known(entry, {"parameter", "exponent", "first", "lowest", "highest"});
+  SizeDial dial;
+  dial.parameter = description.text(entry, "parameter", "the key of a parameter");
+  const auto is_named = [&](const ParameterSpec& spec) { return spec.key == dial.parameter; };
+  if (std::none_of(specs.begin(), specs.end(), is_named))
+    description.fail("size_dial",
+                     "names \"" + dial.parameter + "\", which is no parameter; add it to \"parameters\"");
+  for (const auto& [key, field] : {std::pair("exponent", &dial.exponent), std::pair("first", &dial.first),
+                                   std::pair("lowest", &dial.lowest), std::pair("highest", &dial.highest)}) {
+    if (!entry.contains(key)) continue;
+    if (!entry[key].is_number()) description.fail(key, "is " + entry[key].dump() + "; give a number");
+    *field = entry[key].get<double>();
+  }
+  const bool in_order = dial.lowest > 0 && dial.lowest <= dial.first && dial.first <= dial.highest;
+  if (!in_order || dial.exponent == 0)
+    description.fail("size_dial", "is " + entry.dump() +
+                                      "; give 0 < lowest <= first <= highest, and an exponent other than 0");
+  return dial;
+}
+
 /// Every name in the command's braces must be known, and the command must use the image, the mesh and every
 /// parameter.
 void check_placeholders(const Description& description, const Texts& command, const ParameterSpecs& specs) {
@@ -182,7 +206,7 @@ Adapter load_external_mesher(const fs::path& file) {
   const Description description = read_description(file);
   description.require_known(description.content,
                             {"name", "description", "licence", "command", "output", "version_command",
-                             "multithreaded", "openmp", "deterministic", "parameters"});
+                             "multithreaded", "openmp", "deterministic", "parameters", "size_dial"});
   Adapter adapter;
   adapter.name = checked_name(description);
   adapter.description = description.text(description.content, "description", "one line");
@@ -193,6 +217,8 @@ Adapter load_external_mesher(const fs::path& file) {
   adapter.deterministic = description.flag("deterministic", true);
   const ParameterSpecs specs = read_parameters(description);
   adapter.parameters = ParameterSource(specs);
+  if (description.content.contains("size_dial"))
+    adapter.size_dial = [dial = read_size_dial(description, specs)](const fs::path&) { return dial; };
   if (!description.content.contains("command"))
     description.fail("command", "is missing; give a list of texts, the program first");
   Texts command = description.texts("command");

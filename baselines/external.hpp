@@ -8,7 +8,10 @@
 //  "output": "vtu",                                     vtu, vtk or msh, with an integer cell array `label`
 //  "version_command": ["mytool", "--version"],          optional; its first line goes into the provenance
 //  "multithreaded": true, "deterministic": true,        optional; default: false, true
-//  "parameters": [{"key": "size", "default": "2", "unit": "mm", "description": "element size"}]}    optional
+//  "parameters": [{"key": "size", "default": "2", "unit": "mm", "description": "element size"}],    optional
+//  "size_dial": {"parameter": "size", "exponent": -3, "first": 2, "lowest": 0.01, "highest": 100}} optional:
+//                                       elements ~ size^exponent, and the values from which and between which
+//                                       runs with budgets of elements seek it
 //
 // No shell sees the command: each entry is one argument, whatever it holds. Braces name a value: {image},
 // {mesh} and {report} are files, {threads} a number, all others must be parameters; "{{" stands for "{". A

@@ -67,6 +67,26 @@ TEST_F(External, AMissingOrForbiddenProgramIsSaidWithItsRemedy) {
             std::string::npos);
 }
 
+TEST_F(External, ASizeDialIsReadAndChecked) {
+  EXPECT_FALSE(size_dial_of(load_external_mesher(write(good_.dump())), ""));
+  good_["size_dial"] = {
+      {"parameter", "size"}, {"exponent", -3}, {"first", 2}, {"lowest", 0.1}, {"highest", 50}};
+  const auto dial = size_dial_of(load_external_mesher(write(good_.dump())), "");
+  ASSERT_TRUE(dial);
+  EXPECT_EQ(dial->parameter, "size");
+  EXPECT_EQ(dial->exponent, -3);
+  EXPECT_EQ(dial->highest, 50);
+  for (const auto& [key, value, named] :
+       {std::tuple("parameter", json("sise"), "is no parameter"),
+        std::tuple("exponent", json(0), "other than 0"),
+        std::tuple("first", json(100), "lowest <= first <= highest"),
+        std::tuple("lowest", json("x"), "give a number"), std::tuple("colour", json(1), "is not a key")}) {
+    json bad = good_;
+    bad["size_dial"][key] = value;
+    EXPECT_NE(error_of(bad.dump()).find(named), std::string::npos) << error_of(bad.dump());
+  }
+}
+
 TEST_F(External, BadFilesAreRefusedByKey) {
   EXPECT_THROW(load_external_mesher(folder_ / "none.json"), InputError);
   EXPECT_NE(error_of("{ no json").find("is no JSON"), std::string::npos);

@@ -67,6 +67,27 @@ TEST(Registry, UnknownParameterNamesTheKnownOnes) {
   }
 }
 
+TEST(Registry, EveryMesherHasASizeDialAmongItsParameters) {
+  for (const Adapter& adapter : registry()) {
+    SCOPED_TRACE(adapter.name);
+    const auto dial = size_dial_of(adapter, CBC3D_BIN_DIR);
+    ASSERT_TRUE(dial);
+    EXPECT_NO_THROW(require_known_parameters(
+        adapter, CBC3D_BIN_DIR, with_size(*dial, dial->first, adapter.parameters.in(CBC3D_BIN_DIR), {})));
+    EXPECT_NE(dial->exponent, 0);
+    EXPECT_LE(dial->lowest, dial->first);
+    EXPECT_LE(dial->first, dial->highest);
+  }
+}
+
+TEST(Registry, ParameterSetsNameKnownParameters) {
+  for (const Adapter& adapter : registry()) {
+    for (const auto& [set, parameters] : adapter.parameter_sets)
+      EXPECT_NO_THROW(require_known_parameters(adapter, CBC3D_BIN_DIR, parameters))
+          << adapter.name << " " << set;
+  }
+}
+
 TEST(Registry, AvailableOnlyWhereTheExecutableIs) {
   const std::filesystem::path bin = std::filesystem::path(::testing::TempDir()) / "cbc3d_registry_bin";
   std::filesystem::remove_all(bin);

@@ -91,6 +91,33 @@ bool is_switch(const ParameterSpecs& specs, const std::string& key) {
                      [&](const ParameterSpec& spec) { return spec.key == key && spec.unit == kSwitch; });
 }
 
+bool has_parameter(const ParameterSpecs& specs, const std::string& key) {
+  return std::any_of(specs.begin(), specs.end(), [&](const ParameterSpec& spec) { return spec.key == key; });
+}
+
+/// A number of elements where the program takes one. Else the spacing of the finest lattice, at an eighth of
+/// the coarsest one's, with a fidelity that no lattice meets: as long as the fidelity decides, a lattice of
+/// half the spacing gives the same mesh.
+std::optional<SizeDial> dial_of(const Preset& preset, const ParameterSpecs& specs) {
+  if (preset.name.empty() && has_parameter(specs, "elements")) {
+    return SizeDial{.parameter = "elements",
+                    .exponent = 1,
+                    .first = 100000,
+                    .lowest = 100,
+                    .highest = 1e9,
+                    .counts_elements = true};
+  }
+  if (!has_parameter(specs, "finest-spacing")) return std::nullopt;
+  constexpr double kCoarsestOverFinest = 8;
+  return SizeDial{.parameter = "finest-spacing",
+                  .exponent = -2.5,
+                  .first = 2,
+                  .lowest = 0.02,
+                  .highest = 1000,
+                  .followers = {{"lattice-spacing", kCoarsestOverFinest}},
+                  .fixed = {{"fidelity", "1"}}};
+}
+
 std::vector<std::string> words_of(const std::string& mesher, const ParameterSpecs& specs,
                                   const std::string& key, const std::string& value) {
   if (!is_switch(specs, key)) return {"--" + key, value};
@@ -115,6 +142,9 @@ Adapter make(const std::string& name, const std::string& description, const Pres
   adapter.openmp = true;
   adapter.parameters =
       ParameterSource([preset](const fs::path& bin_dir) { return described_by_program(preset, bin_dir); });
+  adapter.size_dial = [preset, source = adapter.parameters](const fs::path& bin_dir) {
+    return dial_of(preset, source.in(bin_dir));
+  };
   adapter.availability = [](const fs::path& bin_dir) {
     return executable_availability(bin_dir, "cbc3d",
                                    "the program cbc3d is not built: build the target cbc3d");

@@ -10,6 +10,12 @@ ParameterSpecs parameters() {
       {"facet-distance", "2", "mm", "largest distance of a surface facet to the surface"},
       {"cell-radius-edge-ratio", "1.5", "", "largest circumradius to shortest edge ratio of a tet"},
       {"cell-size", "2.5", "mm", "largest circumradius of a tet"},
+      {"label-weights", "0", "largest spacing",
+       "blur of the labels' indicators that weights the domain, so that surfaces lose the voxels' steps; 0: "
+       "unweighted"},
+      {"odt-iterations", "0", "",
+       "iterations of the optimal Delaunay triangulation energy, after refinement"},
+      {"lloyd-iterations", "0", "", "iterations of Lloyd's relaxation, after those"},
       {"perturb", "true", "true|false", "move the vertices of slivers"},
       {"perturb-sliver-bound", "12", "deg", "perturbation ends at this dihedral angle"},
       {"exude", "true", "true|false", "weight vertices such that slivers leave the triangulation"},
@@ -23,6 +29,16 @@ ParameterSpecs parameters() {
   };
 }
 
+/// All lengths keep their ratios.
+SizeDial size_dial() {
+  return {.parameter = "cell-size",
+          .exponent = -2.5,
+          .first = 2.5,
+          .lowest = 0.02,
+          .highest = 1000,
+          .followers = {{"facet-size", 0.8}, {"facet-distance", 0.8}}};
+}
+
 /// `libraries`: what the program is built with; `packages`: the Debian packages that have them.
 Adapter make(const std::string& name, const std::string& description, const std::string& libraries,
              const std::string& packages) {
@@ -32,6 +48,7 @@ Adapter make(const std::string& name, const std::string& description, const std:
   adapter.description = description;
   adapter.licence = "GPL-3.0-or-later";
   adapter.parameters = ParameterSource(parameters());
+  adapter.size_dial = [](const std::filesystem::path&) { return size_dial(); };
   adapter.availability = [=](const std::filesystem::path& bin_dir) {
     return executable_availability(
         bin_dir, executable, "built without " + libraries + ": install " + packages + " and build again");

@@ -10,6 +10,8 @@
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Random.h>
 #include <CGAL/exude_mesh_3.h>
+#include <CGAL/lloyd_optimize_mesh_3.h>
+#include <CGAL/odt_optimize_mesh_3.h>
 #include <CGAL/perturb_mesh_3.h>
 #include <CGAL/refine_mesh_3.h>
 #ifdef CBC3D_CGAL_PARALLEL
@@ -22,6 +24,7 @@
 #include <streambuf>
 #include <unordered_map>
 
+#include "baselines/cgal/label_weights.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::baselines {
@@ -92,6 +95,21 @@ CGAL::Image_3 to_cgal_image(const LabelImage& image, std::size_t word_bytes) {
   return CGAL::Image_3(raw, CGAL::Image_3::OWN_THE_DATA);
 }
 
+// An image of 8-bit weights in the frame of `padded`; invalid, which stands for no weights, without any.
+CGAL::Image_3 to_weight_image(const std::vector<std::uint8_t>& weights, const CGAL::Image_3& padded) {
+  if (weights.empty()) return {};
+  _image* raw = _createImage(padded.xdim(), padded.ydim(), padded.zdim(), 1, padded.vx(), padded.vy(),
+                             padded.vz(), 1, WK_FIXED, SGN_UNSIGNED);
+  if (raw == nullptr || raw->data == nullptr) throw std::bad_alloc();
+  std::copy(weights.begin(), weights.end(), static_cast<std::uint8_t*>(raw->data));
+  return CGAL::Image_3(raw, CGAL::Image_3::OWN_THE_DATA);
+}
+
+std::vector<std::uint8_t> weights_of(const LabelImage& image, const CgalOptions& options) {
+  if (options.label_weights <= 0) return {};
+  return label_weights(image, kPadding, options.label_weights * image.frame.spacing_mm.max_coeff());
+}
+
 // Gives first points on the surface of every connected component, so that none is missed.
 void seed_components(Complex& complex, const Domain& domain, const CGAL::Image_3& image,
                      const Criteria& criteria, std::size_t word_bytes) {
@@ -100,6 +118,22 @@ void seed_components(Complex& complex, const Domain& domain, const CGAL::Image_3
     initialize_triangulation_from_labeled_image(complex, domain, image, criteria, std::uint8_t{});
   } else {
     initialize_triangulation_from_labeled_image(complex, domain, image, criteria, std::uint16_t{});
+  }
+}
+
+// The number of iterations ends both, not a time, so that they repeat.
+void relax(Complex& complex, const Domain& domain, const CgalOptions& options, StageClock& stages) {
+  namespace p = CGAL::parameters;
+  constexpr double kNoTimeLimit = 0;
+  if (options.odt_iterations > 0) {
+    stages.start("odt");
+    CGAL::odt_optimize_mesh_3(complex, domain, p::time_limit = kNoTimeLimit,
+                              p::max_iteration_number = static_cast<std::size_t>(options.odt_iterations));
+  }
+  if (options.lloyd_iterations > 0) {
+    stages.start("lloyd");
+    CGAL::lloyd_optimize_mesh_3(complex, domain, p::time_limit = kNoTimeLimit,
+                                p::max_iteration_number = static_cast<std::size_t>(options.lloyd_iterations));
   }
 }
 
@@ -154,7 +188,10 @@ Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageCl
   stages.start("image");
   const std::size_t word_bytes = image.material_count() > std::numeric_limits<std::uint8_t>::max() ? 2 : 1;
   const CGAL::Image_3 cgal_image = to_cgal_image(image, word_bytes);
-  const Domain domain = Domain::create_labeled_image_mesh_domain(cgal_image, p::p_rng = &random);
+  // The domain refers to both images.
+  const CGAL::Image_3 weight_image = to_weight_image(weights_of(image, options), cgal_image);
+  const Domain domain =
+      Domain::create_labeled_image_mesh_domain(cgal_image, p::weights = weight_image, p::p_rng = &random);
   const Criteria criteria(p::facet_angle = options.facet_angle_deg, p::facet_size = options.facet_size_mm,
                           p::facet_distance = options.facet_distance_mm,
                           p::cell_radius_edge_ratio = options.cell_radius_edge_ratio,
@@ -164,6 +201,7 @@ Mesh mesh_with_cgal(const LabelImage& image, const CgalOptions& options, StageCl
   seed_components(complex, domain, cgal_image, criteria, word_bytes);
   stages.start("refine");
   CGAL::refine_mesh_3(complex, domain, criteria, p::no_lloyd(), p::no_odt(), p::no_perturb(), p::no_exude());
+  relax(complex, domain, options, stages);
   improve(complex, domain, options, stages);
 
   stages.start("export");

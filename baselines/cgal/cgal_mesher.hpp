@@ -1,5 +1,5 @@
-// CGAL Mesh_3 on a label image: Delaunay refinement with the paper's criteria, then perturbation and
-// exudation.
+// CGAL Mesh_3 on a label image: Delaunay refinement with the paper's criteria, then ODT and Lloyd iterations,
+// perturbation and exudation, each where it is asked for.
 #pragma once
 
 #include "baselines/core/driver.hpp"
@@ -9,12 +9,15 @@
 namespace cbc3d::baselines {
 
 struct CgalOptions {
-  double facet_angle_deg = 30;           ///< smallest angle allowed in a surface facet
-  double facet_size_mm = 2;              ///< largest radius of a surface facet's Delaunay ball
-  double facet_distance_mm = 2;          ///< largest distance of a facet to the surface it stands for
-  double cell_radius_edge_ratio = 1.5;   ///< largest circumradius to shortest edge ratio of a tet
-  double cell_size_mm = 2.5;             ///< largest circumradius of a tet
-  bool perturb = true;                   ///< move the vertices of slivers
+  double facet_angle_deg = 30;          ///< smallest angle allowed in a surface facet
+  double facet_size_mm = 2;             ///< largest radius of a surface facet's Delaunay ball
+  double facet_distance_mm = 2;         ///< largest distance of a facet to the surface it stands for
+  double cell_radius_edge_ratio = 1.5;  ///< largest circumradius to shortest edge ratio of a tet
+  double cell_size_mm = 2.5;            ///< largest circumradius of a tet
+  double label_weights = 0;             ///< blur of the labels' indicators in largest spacings; 0: unweighted
+  int odt_iterations = 0;               ///< of the optimal Delaunay triangulation energy
+  int lloyd_iterations = 0;             ///< of Lloyd's relaxation
+  bool perturb = true;                  ///< move the vertices of slivers
   double perturb_sliver_bound_deg = 12;  ///< perturbation ends at this dihedral angle
   bool exude = true;                     ///< weight vertices such that slivers leave the triangulation
   double exude_sliver_bound_deg = 12;  ///< exudation ends at this dihedral angle; 0: it goes as far as it can

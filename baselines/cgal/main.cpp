@@ -27,6 +27,11 @@ CgalOptions options_of(const ParameterValues& values) {
   options.facet_distance_mm = values.number("facet-distance", kSmallest, kLargest);
   options.cell_radius_edge_ratio = values.number("cell-radius-edge-ratio", 1, kLargest);
   options.cell_size_mm = values.number("cell-size", kSmallest, kLargest);
+  constexpr double kWidestBlur = 10;
+  options.label_weights = values.number("label-weights", 0, kWidestBlur);
+  constexpr int kMostIterations = 1000;
+  options.odt_iterations = values.count("odt-iterations", 0, kMostIterations);
+  options.lloyd_iterations = values.count("lloyd-iterations", 0, kMostIterations);
   options.perturb = values.flag("perturb");
   options.perturb_sliver_bound_deg = values.number("perturb-sliver-bound", 0, 90);
   options.exude = values.flag("exude");

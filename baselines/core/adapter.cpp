@@ -54,6 +54,10 @@ std::filesystem::path find_program(const std::string& program) {
   return {};
 }
 
+std::optional<SizeDial> size_dial_of(const Adapter& mesher, const std::filesystem::path& bin_dir) {
+  return mesher.size_dial ? mesher.size_dial(bin_dir) : std::nullopt;
+}
+
 namespace {
 
 std::string unknown_parameter(const std::string& mesher, const ParameterSpecs& known, const std::string& key,

@@ -6,8 +6,11 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "baselines/core/size_dial.hpp"
 
 namespace cbc3d::baselines {
 
@@ -70,6 +73,11 @@ struct Adapter {
   std::function<Availability(const std::filesystem::path& bin_dir)> availability;
   /// The argument vector of a job. Throws InputError for a parameter the mesher does not have.
   std::function<std::vector<std::string>(const std::filesystem::path& bin_dir, const MeshJob&)> command;
+  /// How the number of elements is set with the programs in `bin_dir`; null, or none: the mesher has no such
+  /// parameter.
+  std::function<std::optional<SizeDial>(const std::filesystem::path& bin_dir)> size_dial;
+  /// Parameters of the mesher for any image, by the name of their set.
+  std::map<std::string, std::map<std::string, std::string>> parameter_sets;
   std::string mesh_extension = ".vtu";       ///< of the mesh file that the command writes
   std::vector<std::string> version_command;  ///< prints the version; empty: the report has it
 };
@@ -84,6 +92,9 @@ Availability executable_availability(const std::filesystem::path& bin_dir, const
 /// Where the shell would find a program: a path is its own place, a name is sought in PATH. Empty when it is
 /// nowhere.
 std::filesystem::path find_program(const std::string& program);
+
+/// The mesher's size dial; none where it has none.
+std::optional<SizeDial> size_dial_of(const Adapter& mesher, const std::filesystem::path& bin_dir);
 
 /// Throws InputError, naming the known keys, when the mesher has none of that name. The parameters of a
 /// mesher whose program would have to name them and is not there are not judged, for its jobs end as

@@ -13,6 +13,9 @@ TetgenOptions options_of(const ParameterValues& values) {
   // Below 1 TetGen's refinement does not end.
   options.radius_edge_ratio = values.number("radius-edge-ratio", 1, 100);
   options.max_volume_mm3 = values.number("max-volume", 1e-6, kLargest);
+  // Beyond 30 degrees hardly any refinement ends.
+  options.min_dihedral_deg = values.number("min-dihedral", 0, 30);
+  options.optimization_level = values.count("optimization-level", 0, 10);
   options.smoothing_steps = values.count("smoothing-steps", 0, 10000);
   options.reach = values.number("reach", 0, 0.49);
   options.repair_rounds = values.count("repair-rounds", 0, 1000);

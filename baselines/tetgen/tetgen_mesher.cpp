@@ -196,7 +196,9 @@ Mesh to_mesh(const TetgenOutput& output, const LabelImage& image) {
 std::string mesh_switches(const TetgenOptions& options) {
   std::ostringstream text;
   // -Y keeps the interfaces as they are; without it TetGen splits them and needs ten times as long.
-  text << std::fixed << "pYq" << options.radius_edge_ratio << "a" << options.max_volume_mm3 << "AQ";
+  text << std::fixed << "pYq" << options.radius_edge_ratio;
+  if (options.min_dihedral_deg > 0) text << "/" << options.min_dihedral_deg;
+  text << "a" << options.max_volume_mm3 << "AQO" << options.optimization_level;
   return text.str();
 }
 

@@ -353,6 +353,21 @@ std::string point_mark(std::size_t series, double x, double y, const std::string
   return "<polygon" + attributes({{"points", corners}}) + look + title + "polygon>\n";
 }
 
+/// A line through all points of a series.
+std::string joining_line(std::size_t series, const PointSeries& points, const Plane& plane) {
+  std::string path;
+  for (const auto& [x, y] : points.points) {
+    path += (path.empty() ? "M" : "L") + number(plane.x(x)) + " " + number(plane.y(y));
+  }
+  return path.empty() ? ""
+                      : "<path" +
+                            attributes({{"d", path},
+                                        {"fill", "none"},
+                                        {"stroke", kColours[series % kColours.size()]},
+                                        {"stroke-width", "1.5"}}) +
+                            "/>\n";
+}
+
 /// The axes that hold all points. At least one point there is.
 Plane plane_of(const Scatter& scatter) {
   std::vector<double> xs, ys;
@@ -405,6 +420,7 @@ std::string scatter_chart(const Scatter& scatter) {
   for (std::size_t s = 0; s < scatter.series.size(); ++s) {
     const PointSeries& series = scatter.series[s];
     names.series.push_back({series.name, {}, {}, false});
+    inner += scatter.joined ? joining_line(s, series, plane) : "";
     for (const auto& [x, y] : series.points) {
       inner += point_mark(s, plane.x(x), plane.y(y), series.name + ": " + tick_text(x) + ", " + tick_text(y));
     }

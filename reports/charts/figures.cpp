@@ -8,6 +8,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "reports/charts/chart.hpp"
+#include "reports/charts/front_charts.hpp"
 #include "reports/results/columns.hpp"
 #include "reports/results/format_number.hpp"
 #include "reports/results/run_values.hpp"
@@ -150,8 +151,11 @@ void add_trade_offs(const std::string& case_name, const Columns& columns, std::v
 }  // namespace
 
 std::vector<Figure> result_figures(const std::vector<JobResult>& results) {
+  std::vector<Figure> figures = front_charts(results);
+  if (!figures.empty()) {
+    return figures;  // bars for every budget would say less
+  }
   const Columns columns(results);
-  std::vector<Figure> figures;
   for (const MetricId id : metrics::all_metrics()) {
     if (const std::string name(metrics::metric(id).chart); !name.empty()) {
       const Chart chart = comparison(results, columns, id);

@@ -7,19 +7,15 @@
 #include <vector>
 
 #include "mesher/core/terminal_progress.hpp"
+#include "reports/charts/figure.hpp"
 #include "reports/results/job_result.hpp"
 
 namespace cbc3d::reports {
 
-struct Figure {
-  std::string name;   ///< file name without extension
-  std::string title;  ///< one line
-  std::string svg;
-};
-
 /// For every case the distribution of the dihedral angles in steps of 5 degrees with all meshers; over the
 /// cases every metric that names a chart in the catalog; for every case all meshers in the planes
-/// of distance against smallest dihedral angle and against element count.
+/// of distance against smallest dihedral angle and against element count. Of a run with budgets the fronts
+/// (front_charts.hpp) in place of all these.
 std::vector<Figure> result_figures(const std::vector<JobResult>& results);
 
 /// Writes each figure as NAME.svg into `folder`, which is made, and as NAME.png where rsvg-convert is there;

@@ -20,6 +20,19 @@ struct ListOptions {
   bool quiet = false;
 };
 
+void list_dial_and_sets(const baselines::Adapter& mesher) {
+  if (const auto dial = baselines::size_dial_of(mesher, bin_dir())) {
+    std::cout << "    size dial: " << dial->parameter << '\n';
+  }
+  for (const auto& [set, parameters] : mesher.parameter_sets) {
+    std::cout << "    parameter set " << set << ':';
+    for (const auto& [key, value] : parameters) {
+      std::cout << ' ' << key << '=' << value;
+    }
+    std::cout << '\n';
+  }
+}
+
 void list_meshers(const ListOptions& options) {
   for (const baselines::Adapter& mesher : all_meshers(options.externals)) {
     const baselines::Availability availability = mesher.availability(bin_dir());
@@ -32,6 +45,7 @@ void list_meshers(const ListOptions& options) {
                 << (parameter.unit.empty() ? "" : " " + parameter.unit) << ": " << parameter.description
                 << '\n';
     }
+    list_dial_and_sets(mesher);
   }
 }
 
@@ -65,7 +79,9 @@ void list_suites(const ListOptions& options) {
     }
   }
   for (const auto& [suite, names] : suites) {
-    std::cout << suite << ":" << names << '\n';
+    const std::string way =
+        suite == kFrontSuite ? " (every mesher at 25, 50, 100, 200 and 400 thousand elements)" : "";
+    std::cout << suite << way << ":" << names << '\n';
   }
 }
 

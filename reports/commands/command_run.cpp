@@ -24,6 +24,9 @@ int run(RunCommandOptions options) {
   options.run.memory_limit_bytes = static_cast<std::int64_t>(options.memory_limit_gib * double(1 << 30));
   options.run.parameters = parse_settings(options.selection);
   options.run.shard = parse_shard(options.shard);
+  if (options.run.budgets.empty() && selects_front(options.selection)) {
+    options.run.budgets = kFrontBudgets;
+  }
   const Bench bench = make_bench(options.selection, options.run.out_dir);
   TerminalProgress progress(options.output.quiet);
   const std::vector<JobResult> results = decode_lines(run_jobs(bench, options.run, progress));
@@ -62,6 +65,13 @@ Command add_run_command(CLI::App& app) {
       ->add_option("--out", options->out,
                    "folder for results.jsonl, meshes, tables and figures; made if need be")
       ->required();
+  parser
+      ->add_option(
+          "--budgets", options->run.budgets,
+          "numbers of elements, separated by commas: each mesher's size dial is turned until its mesh has "
+          "about so many, a job for each; default with the suite front: 25000,50000,100000,200000,400000")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
   add_limit_options(parser, options->run, options->memory_limit_gib);
   parser->add_flag("--solve", options->run.solve,
                    "solve Poisson's equation on every mesh (cbc3d-solve, a process of its own under the same "

@@ -27,7 +27,9 @@ auto find_named(const Things& things, const std::string& name) {
 }
 
 std::vector<cases::Case> chosen_cases(const Selection& selection, const std::vector<cases::Case>& all) {
-  if (selection.suites.empty() == selection.cases.empty()) {
+  // Cases beside the suite `front` are run in its way.
+  const bool is_front_of_cases = selection.suites == std::vector<std::string>{std::string(kFrontSuite)};
+  if (selection.suites.empty() == selection.cases.empty() && !is_front_of_cases) {
     throw InputError("give either --suite or --case; `cbc3d-bench list suites` and `list cases` name them");
   }
   std::vector<cases::Case> chosen;
@@ -43,7 +45,7 @@ std::vector<cases::Case> chosen_cases(const Selection& selection, const std::vec
     }
     add(*found);
   }
-  for (const std::string& suite : selection.suites) {
+  for (const std::string& suite : chosen.empty() ? selection.suites : std::vector<std::string>{}) {
     const auto is_in = [&](const cases::Case& c) {
       return std::find(c.suites.begin(), c.suites.end(), suite) != c.suites.end();
     };
@@ -78,7 +80,29 @@ std::vector<baselines::Adapter> chosen_meshers(const Selection& selection) {
   return chosen;
 }
 
+/// Lays a parameter set over the parameters of a case: what the meshers have under that name, then what the
+/// case has. Throws InputError where neither has any.
+void lay_over(cases::Case& subject, const std::string& set, const std::vector<baselines::Adapter>& meshers) {
+  bool is_meshers = false;
+  for (const baselines::Adapter& mesher : meshers) {
+    const auto found = mesher.parameter_sets.find(set);
+    if (found != mesher.parameter_sets.end()) {
+      is_meshers = true;
+      for (const auto& [key, value] : found->second) {
+        subject.parameters[mesher.name][key] = value;
+      }
+    }
+  }
+  if (!is_meshers || subject.parameter_sets.contains(set)) {
+    cases::use_parameter_set(subject, set);
+  }
+}
+
 }  // namespace
+
+bool selects_front(const Selection& selection) {
+  return std::find(selection.suites.begin(), selection.suites.end(), kFrontSuite) != selection.suites.end();
+}
 
 void add_selection_options(CLI::App* parser, Selection& selection) {
   parser->add_option("--suite", selection.suites, "suites of cases (see: list suites)");
@@ -94,8 +118,11 @@ void add_selection_options(CLI::App* parser, Selection& selection) {
                    "folder with case images (may be given again); then those in CBC3D_DATA, then ../data "
                    "beside the programs")
       ->allow_extra_args(false);
-  parser->add_option("--parameter-set", selection.parameter_set,
-                     "a named set of the cases' manifests (equal_count, say), laid over their parameters");
+  parser->add_option(
+      "--parameter-set", selection.parameter_set,
+      "a named set of the cases' manifests or the meshers (equal_count, tuned), laid over "
+      "the cases' parameters; published: these as they are. Default: published, with the suite "
+      "front tuned");
   parser
       ->add_option("--set", selection.settings,
                    "MESHER.KEY=VALUE: a parameter of a mesher (may be given again)")
@@ -146,12 +173,15 @@ std::vector<baselines::Adapter> all_meshers(const std::vector<std::string>& exte
 Bench make_bench(const Selection& selection, const std::filesystem::path& out_dir) {
   Bench bench;
   bench.cases = chosen_cases(selection, cases_of(selection.manifests));
-  if (!selection.parameter_set.empty()) {
+  bench.meshers = chosen_meshers(selection);
+  const std::string set = selection.parameter_set.empty() && selects_front(selection)
+                              ? std::string(kTunedSet)
+                              : selection.parameter_set;
+  if (!set.empty() && set != kPublishedSet) {
     for (cases::Case& subject : bench.cases) {
-      cases::use_parameter_set(subject, selection.parameter_set);
+      lay_over(subject, set, bench.meshers);
     }
   }
-  bench.meshers = chosen_meshers(selection);
   bench.bin_dir = bin_dir();
   bench.evaluate_command = {executable_file(), "evaluate"};
   bench.solve_command = solve_command(bench.bin_dir);

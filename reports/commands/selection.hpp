@@ -2,8 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/run/runner.hpp"
@@ -15,7 +17,7 @@ struct Selection {
   std::vector<std::string> externals;  ///< JSON files of meshers from outside
   std::vector<std::string> data;       ///< folders with case images
   std::vector<std::string> settings;   ///< MESHER.KEY=VALUE
-  std::string parameter_set;           ///< of the cases' manifests; empty: none
+  std::string parameter_set;           ///< of the cases' manifests or the meshers; empty: none
   std::string manifests;               ///< folder of case manifests; empty: the installed ones
 };
 
@@ -29,6 +31,18 @@ std::vector<cases::Case> cases_of(const std::string& manifests);
 
 /// The meshers of the registry and those of JSON files. Throws InputError for one that is there twice.
 std::vector<baselines::Adapter> all_meshers(const std::vector<std::string>& externals);
+
+/// The suite in which every mesher's size dial is swept over budgets.
+inline constexpr std::string_view kFrontSuite = "front";
+/// Its budgets, elements.
+inline const std::vector<std::int64_t> kFrontBudgets{25'000, 50'000, 100'000, 200'000, 400'000};
+/// The parameter set of meshers at their best, which it takes unless another is named.
+inline constexpr std::string_view kTunedSet = "tuned";
+/// The name for the manifests' parameters as they stand.
+inline constexpr std::string_view kPublishedSet = "published";
+
+/// True when the suite `front` is among the selection's.
+bool selects_front(const Selection& selection);
 
 /// What the selection runs with; generated images go to `out_dir`/images. Throws InputError naming the
 /// option.

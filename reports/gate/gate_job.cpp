@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "reports/results/columns.hpp"
 #include "reports/results/format_number.hpp"
 #include "reports/results/statistics.hpp"
 
@@ -77,8 +78,8 @@ std::vector<long> missing_labels(const Runs& runs) {
 GateJob joint(const Runs& runs) {
   const JobResult& first = *runs.front();
   GateJob job;
-  job.name = gate_job_name(first.case_name, first.mesher, first.threads);
-  job.identity = {{"case", first.case_name},
+  job.name = gate_job_name(row_name(first), first.mesher, first.threads);
+  job.identity = {{"case", row_name(first)},
                   {"mesher", first.mesher},
                   {"threads", first.threads},
                   {"parameters", first.parameters}};
@@ -119,7 +120,7 @@ std::vector<GateJob> gate_jobs(const std::vector<JobResult>& results) {
   std::vector<std::string> order;
   std::map<std::string, Runs> runs;
   for (const JobResult& result : results) {
-    const std::string name = gate_job_name(result.case_name, result.mesher, result.threads);
+    const std::string name = gate_job_name(row_name(result), result.mesher, result.threads);
     if (!runs.contains(name)) {
       order.push_back(name);
     }

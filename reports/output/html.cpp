@@ -152,7 +152,7 @@ std::string picture_row(const Report& report, const std::string& case_name, cons
 
 std::string pictures(const Report& report) {
   std::string html;
-  for (const std::string& case_name : case_names(report.results)) {
+  for (const std::string& case_name : image_names(report.results)) {
     std::string rows;
     for (const PictureKind& kind : picture_kinds()) {
       rows += picture_row(report, case_name, kind);

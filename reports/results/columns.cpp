@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reports/results/format_number.hpp"
+
 namespace cbc3d::reports {
 namespace {
 
@@ -39,14 +41,28 @@ std::string Columns::name_of(const JobResult& result) const {
 Runs Columns::runs(const std::string& case_name, const std::string& column) const {
   Runs runs;
   for (const JobResult& result : results_) {
-    if (result.case_name == case_name && name_of(result) == column) {
+    if (row_name(result) == case_name && name_of(result) == column) {
       runs.push_back(&result);
     }
   }
   return runs;
 }
 
+std::string row_name(const JobResult& result) {
+  return result.budget
+             ? result.case_name + ", " + format_number(static_cast<double>(*result.budget), 0) + " elements"
+             : result.case_name;
+}
+
 std::vector<std::string> case_names(const std::vector<JobResult>& results) {
+  std::vector<std::string> names;
+  for (const JobResult& result : results) {
+    add_new(names, row_name(result));
+  }
+  return names;
+}
+
+std::vector<std::string> image_names(const std::vector<JobResult>& results) {
   std::vector<std::string> names;
   for (const JobResult& result : results) {
     add_new(names, result.case_name);

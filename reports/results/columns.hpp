@@ -17,7 +17,7 @@ class Columns {
   explicit Columns(const std::vector<JobResult>& results);
   [[nodiscard]] std::string name_of(const JobResult& result) const;
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  /// The results of a case in a column.
+  /// The results of a case, by its row name, in a column.
   [[nodiscard]] Runs runs(const std::string& case_name, const std::string& column) const;
 
  private:
@@ -26,7 +26,14 @@ class Columns {
   std::vector<std::string> names_;
 };
 
-/// Cases in the order of their first lines.
+/// What a result's case is called in tables: its name, with a budget "liver, 25,000 elements", for results of
+/// different budgets are not repeats of each other.
+std::string row_name(const JobResult& result);
+
+/// Row names in the order of their first lines.
 std::vector<std::string> case_names(const std::vector<JobResult>& results);
+
+/// Cases in the order of their first lines, whatever the budgets.
+std::vector<std::string> image_names(const std::vector<JobResult>& results);
 
 }  // namespace cbc3d::reports

@@ -24,5 +24,15 @@ TEST(Columns, AreMeshersInTheOrderOfTheirFirstLines) {
   EXPECT_EQ(case_names(results), (std::vector<std::string>{"liver", "box"}));
 }
 
+TEST(Columns, BudgetsAreRowsOfTheirOwn) {
+  std::vector<JobResult> results{result("liver", "cgal", 1), result("liver", "cgal", 1)};
+  results[0].budget = 25000;
+  results[1].budget = 50000;
+  EXPECT_EQ(case_names(results),
+            (std::vector<std::string>{"liver, 25,000 elements", "liver, 50,000 elements"}));
+  EXPECT_EQ(Columns(results).runs("liver, 50,000 elements", "cgal"), (Runs{&results[1]}));
+  EXPECT_EQ(image_names(results), (std::vector<std::string>{"liver"}));
+}
+
 }  // namespace
 }  // namespace cbc3d::reports

@@ -140,6 +140,10 @@ void decode_identity(const Json& line, JobResult& result) {
   result.mesher = text_of(at(line, "mesher"));
   result.threads = integer_of(at(line, "threads"), 1);
   result.repeat = integer_of(at(line, "repeat"), 0);
+  if (const Json& budget = at(line, "budget"); budget.is_number_integer()) {
+    result.budget = budget.get<std::int64_t>();
+  }
+  result.budget_shortfall = text_of(at_path(line, "size_search.reason"));
   result.parameters = parameters_of(at(line, "parameters"));
   result.id = result_id(line);
 }

@@ -30,10 +30,12 @@ struct JobResult {
   std::string case_name, mesher;
   int threads = 1;
   int repeat = 0;
-  Parameters parameters;  ///< that the job was given
-  std::string status;     ///< one of kStatuses; empty: the line has none
-  std::string reason;     ///< why the job is not ok
-  std::string mesh_file;  ///< relative to the run's folder; empty: no mesh
+  std::optional<std::int64_t> budget;  ///< elements that the mesh should have; none: no number was asked for
+  std::string budget_shortfall;        ///< why it has not about so many; empty: it has
+  Parameters parameters;               ///< that the job ran with
+  std::string status;                  ///< one of kStatuses; empty: the line has none
+  std::string reason;                  ///< why the job is not ok
+  std::string mesh_file;               ///< relative to the run's folder; empty: no mesh
   std::string mesh_sha256;
   std::optional<ImageData> image;  ///< none: it was not read
   metrics::Figures figures;

@@ -161,7 +161,10 @@ std::string result_id(const Json& result) {
     const Json value = figure(result, {key});
     return std::to_string(value.is_number_integer() ? value.get<int>() : 0);
   };
-  return text("case") + "-" + text("mesher") + "-t" + number("threads") + "-r" + number("repeat");
+  const Json budget = figure(result, {"budget"});
+  const std::string of_budget =
+      budget.is_number_integer() ? "-n" + std::to_string(budget.get<std::int64_t>()) : "";
+  return text("case") + "-" + text("mesher") + of_budget + "-t" + number("threads") + "-r" + number("repeat");
 }
 
 std::string file_stem(const Json& result) {

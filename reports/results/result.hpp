@@ -37,7 +37,8 @@ std::vector<Json> read_results(const std::filesystem::path& file);
 /// Removes a last line that was cut off (a machine that went down), so that lines can be appended again.
 void drop_torn_line(const std::filesystem::path& file);
 
-/// What identifies a job among the lines of one file: "CASE-MESHER-tTHREADS-rREPEAT".
+/// What identifies a job among the lines of one file: "CASE-MESHER-tTHREADS-rREPEAT", and of one with a
+/// budget "CASE-MESHER-nBUDGET-tTHREADS-rREPEAT".
 std::string result_id(const Json& result);
 
 /// result_id without what a file name should not have.

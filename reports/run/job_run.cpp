@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include "cases/core/sha256.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/mesh_io.hpp"
 #include "reports/run/child_process.hpp"
 #include "reports/run/provenance.hpp"
 #include "reports/run/reference_work.hpp"
@@ -222,14 +224,15 @@ class Children {
       : bench_(bench), options_(options), job_(job), files_(files) {}
 
   /// True when there is a mesh.
-  bool mesh(const fs::path& image, Json& result) const {
-    const std::vector<std::string> argv = job_.mesher->command(
-        bench_.bin_dir, {image, files_.mesh, files_.report, job_.threads, job_.parameters});
+  bool mesh(const fs::path& image, const Parameters& parameters, Json& result) const {
+    const std::vector<std::string> argv =
+        job_.mesher->command(bench_.bin_dir, {image, files_.mesh, files_.report, job_.threads, parameters});
     const ChildResult child = start(argv, job_.threads, binds_threads(options_, job_));
     const nlohmann::json report = read_json(files_.report);
     const bool external = job_.mesher->name.rfind("external:", 0) == 0;
     set_costs(result, child, report, external);
     result["mesher_report"] = mesher_report(report);
+    result["counts"].update(object_at(report, "counts"));
     result["provenance"]["mesher_version"] = version_of(*job_.mesher, report);
     if (succeeded(child) && fs::exists(files_.mesh)) {
       return true;
@@ -285,6 +288,123 @@ class Children {
   const JobFiles& files_;
 };
 
+constexpr const char* kElementKinds[] = {"tets", "pyramids", "wedges", "hexes"};
+
+/// Elements of the mesh of a job: by its mesher's report, else by its file. None where there are none.
+std::optional<double> count_elements(const Json& result, const fs::path& mesh_file) {
+  double elements = 0;
+  for (const char* kind : kElementKinds) {
+    const Json count = figure(result, {"counts", kind});
+    elements += count.is_number() ? count.get<double>() : 0;
+  }
+  if (elements == 0) {
+    const Mesh mesh = read_mesh(mesh_file);
+    elements =
+        static_cast<double>(mesh.tets.size() + mesh.pyramids.size() + mesh.wedges.size() + mesh.hexes.size());
+  }
+  return elements > 0 ? std::optional(elements) : std::nullopt;
+}
+
+/// The command of a job with names in the place of its files.
+std::vector<std::string> nameless_command(const Job& job, const fs::path& bin_dir,
+                                          const Parameters& parameters) {
+  return job.mesher->command(bin_dir, {"IMAGE", "MESH", "REPORT", job.threads, parameters});
+}
+
+/// What the searches of several budgets have in common, and so their tries.
+std::string common_key(const Job& job, const fs::path& bin_dir) {
+  const std::vector<std::string> argv = nameless_command(job, bin_dir, job.parameters);
+  return cases::sha256_of_text(configuration_of(job, argv).dump() + program_digest(argv.front()).dump());
+}
+
+Json to_json(const std::vector<DialTry>& tries) {
+  Json list = Json::array();
+  for (const DialTry& one : tries) {
+    list.push_back({{"value", one.value}, {"elements", one.elements ? Json(*one.elements) : Json()}});
+    if (!one.elements) {
+      list.back()["failure"] = one.failure;
+    }
+  }
+  return list;
+}
+
+/// The meshes of a search: each try is a whole job of the mesher, and the one nearest to the budget stays.
+class SizeSearch {
+ public:
+  SizeSearch(const Job& job, baselines::SizeDial dial, const fs::path& bin_dir, std::vector<DialTry> known)
+      : job_(job),
+        dial_(std::move(dial)),
+        bin_dir_(bin_dir),
+        known_count_(known.size()),
+        search_(dial_, static_cast<double>(*job.budget), std::move(known)) {}
+
+  /// The line of the job whose mesh stays in the place of `files`, with the record of the search; without a
+  /// mesh that of the last try.
+  Json run(const Children& children, const JobFiles& files, const fs::path& image, const Json& identity) {
+    std::error_code error;
+    fs::remove(kept_file(files), error);
+    while (const auto value = search_.next()) {
+      attempt(*value, children, files, image, identity);
+    }
+    const DialTry* best = search_.best();
+    if (best != nullptr && best->value != kept_value_) {  // a former job's try was nearer
+      attempt(best->value, children, files, image, identity);
+    }
+    if (kept_value_) {
+      fs::rename(kept_file(files), files.mesh);
+    }
+    kept_["size_search"] = record();
+    return kept_;
+  }
+  [[nodiscard]] bool has_mesh() const { return kept_value_.has_value(); }
+  [[nodiscard]] const std::vector<DialTry>& tries() const { return search_.tries(); }
+
+ private:
+  static fs::path kept_file(const JobFiles& files) { return files.mesh.string() + ".kept"; }
+
+  void attempt(double value, const Children& children, const JobFiles& files, const fs::path& image,
+               const Json& identity) {
+    Json line = identity;
+    const Parameters parameters =
+        with_size(dial_, value, job_.mesher->parameters.in(bin_dir_), job_.parameters);
+    line["parameters"] = parameters;
+    line["provenance"]["command"] = nameless_command(job_, bin_dir_, parameters);
+    files.remove_all();
+    DialTry one{value, {}, ""};
+    if (children.mesh(image, parameters, line)) {
+      one.elements = count_elements(line, files.mesh);
+    }
+    one.failure = one.elements ? "" : line["status"].is_null() ? "no element" : text_at(line, "reason");
+    search_.add(one);
+    const DialTry* best = search_.best();
+    if (one.elements && (best->value == value || !kept_value_)) {
+      fs::rename(files.mesh, kept_file(files));
+      kept_value_ = value;
+      kept_ = line;
+    } else if (!kept_value_) {
+      kept_ = line;
+    }
+  }
+
+  [[nodiscard]] Json record() const {
+    const std::vector<DialTry>& all = search_.tries();
+    const auto first_own = all.begin() + static_cast<std::ptrdiff_t>(known_count_);
+    return {{"parameter", dial_.parameter},
+            {"met", search_.is_met()},
+            {"reason", search_.reason()},
+            {"given_parameters", job_.parameters},
+            {"tries", to_json({first_own, all.end()})}};
+  }
+
+  const Job& job_;
+  baselines::SizeDial dial_;
+  const fs::path& bin_dir_;
+  std::size_t known_count_;
+  DialSearch search_;
+  std::optional<double> kept_value_;
+  Json kept_;
+};
+
 }  // namespace
 
 Json identity_of(const Job& job, const Bench& bench) {
@@ -293,11 +413,17 @@ Json identity_of(const Job& job, const Bench& bench) {
   result["mesher"] = job.mesher->name;
   result["threads"] = job.threads;
   result["repeat"] = job.repeat;
+  if (job.budget) {
+    result["budget"] = *job.budget;
+  }
   result["parameters"] = job.parameters;
-  const std::vector<std::string> argv =
-      job.mesher->command(bench.bin_dir, {"IMAGE", "MESH", "REPORT", job.threads, job.parameters});
+  const std::vector<std::string> argv = nameless_command(job, bench.bin_dir, job.parameters);
+  Json configuration = configuration_of(job, argv);
+  if (job.budget) {
+    configuration["budget"] = *job.budget;
+  }
   Json& origin = result["provenance"];
-  origin["configuration_sha256"] = cases::sha256_of_text(configuration_of(job, argv).dump());
+  origin["configuration_sha256"] = cases::sha256_of_text(configuration.dump());
   origin["program_sha256"] = program_digest(argv.front());
   origin["evaluator_sha256"] = program_digest(bench.evaluate_command.front());
   origin["command"] = argv;
@@ -333,13 +459,44 @@ Json JobRunner::run(const Job& job) {
   return result;
 }
 
+void JobRunner::learn(const Json& result) {
+  const Json key = figure(result, {"size_search", "common_sha256"});
+  const Json tries = figure(result, {"size_search", "tries"});
+  if (!key.is_string() || !tries.is_array()) {
+    return;
+  }
+  for (const Json& one : tries) {
+    const Json elements = figure(one, {"elements"});
+    if (elements.is_number()) {
+      tries_[key.get<std::string>()].push_back({one.at("value").get<double>(), elements.get<double>(), ""});
+    }
+  }
+}
+
+bool JobRunner::mesh_to_budget(const Job& job, const fs::path& image, Json& result) {
+  const auto dial = baselines::size_dial_of(*job.mesher, bench_.bin_dir);
+  if (!dial) {
+    set_status(result, "skipped", "the mesher names no size dial, so no budget can be met");
+    return false;
+  }
+  const JobFiles files(options_.out_dir, file_stem(result), job.mesher->mesh_extension);
+  const Children children(bench_, options_, job, files);
+  const std::string key = common_key(job, bench_.bin_dir);
+  SizeSearch search(job, *dial, bench_.bin_dir, tries_[key]);
+  result = search.run(children, files, image, result);
+  result["size_search"]["common_sha256"] = key;
+  learn(result);
+  return search.has_mesh();
+}
+
 void JobRunner::run_children(const Job& job, const fs::path& image, Json& result) {
   const std::string stem = file_stem(result);
   const JobFiles files(options_.out_dir, stem, job.mesher->mesh_extension);
   files.remove_all();
   const Children children(bench_, options_, job, files);
   const double reference_before_s = reference_cpu_seconds(job.threads);
-  const bool meshed = children.mesh(image, result);
+  const bool meshed =
+      job.budget ? mesh_to_budget(job, image, result) : children.mesh(image, job.parameters, result);
   result["time_s"]["reference_cpu"] = std::min(reference_before_s, reference_cpu_seconds(job.threads));
   if (!meshed) {
     return;

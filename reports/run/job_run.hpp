@@ -3,7 +3,9 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
+#include "reports/run/dial_search.hpp"
 #include "reports/run/runner.hpp"
 
 namespace cbc3d::reports {
@@ -21,12 +23,17 @@ class JobRunner {
   /// Any error of the job is its failure: the line says so.
   Json run(const Job& job);
 
+  /// Takes the tries of a former job with a budget, so that searches begin with them.
+  void learn(const Json& result);
+
  private:
   void run_children(const Job& job, const std::filesystem::path& image, Json& result);
+  bool mesh_to_budget(const Job& job, const std::filesystem::path& image, Json& result);
 
   const Bench& bench_;
   const RunOptions& options_;
   std::map<std::string, nlohmann::json> evaluations_;  ///< by digests of image and mesh
+  std::map<std::string, std::vector<DialTry>> tries_;  ///< by what the searches have in common
 };
 
 }  // namespace cbc3d::reports

@@ -16,10 +16,16 @@ bool differs(const Json& line, const Json& identity, const char* key) {
   return was.is_string() && is.is_string() && was != is;
 }
 
+/// Those that a job was given; of one with a budget before its size dial was turned.
+Json given_parameters(const Json& line) {
+  const Json before = figure(line, {"size_search", "given_parameters"});
+  return before.is_object() ? before : line.value("parameters", Json::object());
+}
+
 /// What of a job is no longer what it was for its line; empty: nothing.
 std::string change_of(const Json& line, const Json& identity) {
-  if (line.value("parameters", Json::object()) != identity["parameters"]) {
-    return "its parameters were " + line.value("parameters", Json::object()).dump() + " and are " +
+  if (given_parameters(line) != identity["parameters"]) {
+    return "its parameters were " + given_parameters(line).dump() + " and are " +
            identity["parameters"].dump();
   }
   if (differs(line, identity, "configuration_sha256")) {

@@ -20,7 +20,10 @@ std::string progress_line(const Json& result) {
   if (result["time_s"]["mesh"].is_number()) {
     line += ", meshed in " + format_number(result["time_s"]["mesh"].get<double>(), 2) + " s";
   }
-  const std::string reason = result["reason"];
+  const Json shortfall = figure(result, {"size_search", "reason"});
+  const std::string reason = shortfall.is_string() && result["reason"] == "" && shortfall != ""
+                                 ? "budget not met: " + shortfall.get<std::string>()
+                                 : result["reason"].get<std::string>();
   return reason.empty() ? line : line + " (" + reason + ")";
 }
 
@@ -49,15 +52,24 @@ Parameters parameters_of(const cases::Case& subject, const std::string& mesher, 
   return parameters;
 }
 
+/// The budgets of a run; one that is none where it has no budgets.
+std::vector<std::optional<std::int64_t>> budgets_of(const RunOptions& options) {
+  return options.budgets.empty()
+             ? std::vector<std::optional<std::int64_t>>(1)
+             : std::vector<std::optional<std::int64_t>>(options.budgets.begin(), options.budgets.end());
+}
+
 std::vector<Job> all_jobs(const Bench& bench, const RunOptions& options) {
   std::vector<Job> jobs;
   for (const cases::Case& subject : bench.cases) {
     for (const baselines::Adapter& mesher : bench.meshers) {
       const Parameters parameters = parameters_of(subject, mesher.name, options);
       baselines::require_known_parameters(mesher, bench.bin_dir, parameters);
-      for (const int threads : thread_counts(mesher, options.threads)) {
-        for (int repeat = 0; repeat < options.repeats; ++repeat) {
-          jobs.push_back({&subject, &mesher, threads, repeat, parameters});
+      for (const auto& budget : budgets_of(options)) {
+        for (const int threads : thread_counts(mesher, options.threads)) {
+          for (int repeat = 0; repeat < options.repeats; ++repeat) {
+            jobs.push_back({&subject, &mesher, threads, repeat, parameters, budget});
+          }
         }
       }
     }
@@ -104,6 +116,9 @@ std::vector<Json> run_jobs(const Bench& bench, const RunOptions& options, Termin
     done.insert(result_id(result));
   }
   JobRunner runner(bench, options);
+  for (const Json& result : results) {
+    runner.learn(result);
+  }
   std::size_t number = 0;
   for (const Job& job : jobs) {
     const std::string id = result_id(identity_of(job, bench));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ struct RunOptions {
   bool solve = false;          ///< finite-element problems on every mesh too, see solve.hpp
   bool bind_threads = false;   ///< OpenMP's threads stay each on a core of its own
   Shard shard;                 ///< the part of the jobs to run
+  /// Numbers of elements: a job for each, whose mesher's size dial is turned until it has about so many.
+  /// Empty: the parameters stay as they are.
+  std::vector<std::int64_t> budgets;
 };
 
 struct Job {
@@ -54,12 +58,13 @@ struct Job {
   const baselines::Adapter* mesher = nullptr;
   int threads = 1;
   int repeat = 0;
-  Parameters parameters;
+  Parameters parameters;               ///< with a budget: those that the size dial leaves alone decide
+  std::optional<std::int64_t> budget;  ///< elements that its mesh should have
 };
 
-/// The jobs of a run: cases x meshers x threads x repeats, or of those the shard's. The parameters of a case
-/// for a mesher are those under the mesher's name, overlaid by the options'. Throws InputError for parameters
-/// that a mesher does not have.
+/// The jobs of a run: cases x meshers x budgets x threads x repeats, or of those the shard's. The parameters
+/// of a case for a mesher are those under the mesher's name, overlaid by the options'. Throws InputError for
+/// parameters that a mesher does not have.
 std::vector<Job> plan_jobs(const Bench& bench, const RunOptions& options);
 
 /// Runs the jobs one after the other and returns all lines of the results file. A job that fails is a line,

@@ -1,8 +1,11 @@
 // A child that behaves as its first argument says: exit CODE, crash, sleep, allocate, spawn PIDFILE, say
-// TEXT, say-and-end CODE TEXT, env NAME, mesh OUT REPORT, solve ... OUT, and ill ways of meshing.
+// TEXT, say-and-end CODE TEXT, env NAME, mesh OUT REPORT, tets OUT REPORT SIZE, solve ... OUT, and ill ways of
+// meshing.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -79,6 +82,21 @@ int write_tet(const std::string& mesh_file, const std::string& report_file, int 
   return 0;
 }
 
+/// 1000 / size^3 tets, but at least 20, apart from each other.
+int write_tets(const std::string& mesh_file, double size) {
+  cbc3d::Mesh mesh;
+  const auto count = static_cast<unsigned>(std::max(20.0, std::floor(1000 / (size * size * size))));
+  for (unsigned n = 0; n < count; ++n) {
+    const double x = 1 + 5.0 * n / count, edge = 2.0 / count;
+    for (const cbc3d::Vec3& corner : {cbc3d::Vec3{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}}) {
+      mesh.points.push_back(cbc3d::Vec3{x, 1, 1} + corner);
+    }
+    mesh.tets.add({4 * n, 4 * n + 1, 4 * n + 2, 4 * n + 3}, 1);
+  }
+  cbc3d::write_mesh(mesh, mesh_file);
+  return 0;
+}
+
 /// A mesh file that stops in the middle.
 int write_half_a_tet(const std::string& mesh_file, const std::string& report_file) {
   write_tet(mesh_file, report_file);
@@ -125,6 +143,7 @@ int main(int argc, char** argv) {
   if (mode == "spawn-allocate") return spawn_allocate();
   if (mode == "fail" && argc > 3) return fail(argv[3]);
   if (mode == "mesh" && argc > 3) return write_tet(first, argv[3]);
+  if (mode == "tets" && argc > 4) return write_tets(first, std::stod(argv[4]));
   if (mode == "mesh-and-daemon" && argc > 3)
     return spawn_daemon(std::string(argv[3]) + ".pid"), write_tet(first, argv[3]);
   if (mode == "wrong-label" && argc > 3) return write_tet(first, argv[3], 99);

@@ -45,7 +45,7 @@ Row image_row(const std::string& case_name, const ImageData& image, const cases:
 Table image_data_table(const TableInput& input) {
   Table table{"image_data", "Image data", {"type", "materials", "spacing (mm)", "size (voxels)"},
               {},           "case",       "image"};
-  for (const std::string& name : case_names(input.results)) {
+  for (const std::string& name : image_names(input.results)) {
     const auto read = std::find_if(input.results.begin(), input.results.end(), [&](const JobResult& result) {
       return result.case_name == name && result.image.has_value();
     });

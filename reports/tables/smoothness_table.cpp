@@ -15,7 +15,7 @@ constexpr const char* kName = "smoothness";
 Runs results_with_shape(const std::vector<JobResult>& results, const std::string& case_name) {
   Runs known;
   for (const JobResult& result : results) {
-    if (result.case_name == case_name && result.figures[metrics::metric_id("shape.normal_deviation_deg")]) {
+    if (row_name(result) == case_name && result.figures[metrics::metric_id("shape.normal_deviation_deg")]) {
       known.push_back(&result);
     }
   }

@@ -2,6 +2,7 @@
 
 #include "reports/tables/catalog_table.hpp"
 #include "reports/tables/deformation_pattern_table.hpp"
+#include "reports/tables/front_table.hpp"
 #include "reports/tables/image_data_table.hpp"
 #include "reports/tables/input_parameter_table.hpp"
 #include "reports/tables/microbenchmark_table.hpp"
@@ -16,6 +17,8 @@ namespace cbc3d::reports {
 
 const std::vector<TableBuilder>& table_list() {
   static const std::vector<TableBuilder> list{
+      front_table,
+      front_loss_table,
       catalog_table("element_count", "Element count"),
       catalog_table("element_quality", "Element quality"),
       catalog_table(

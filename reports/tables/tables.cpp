@@ -1,5 +1,6 @@
 #include "reports/tables/tables.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -10,9 +11,13 @@
 namespace cbc3d::reports {
 
 std::vector<Table> build_tables(const TableInput& input) {
+  const bool has_budgets = std::any_of(input.results.begin(), input.results.end(),
+                                       [](const JobResult& result) { return result.budget.has_value(); });
   std::vector<Table> tables;
   for (const TableBuilder& build : table_list()) {
     if (Table table = build(input); !table.rows.empty()) {
+      // With a row for every budget the other tables are too long for a screen.
+      table.on_screen = table.on_screen && (!has_budgets || table.name.starts_with("front"));
       tables.push_back(std::move(table));
     }
   }

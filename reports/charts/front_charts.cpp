@@ -1,0 +1,102 @@
+#include "reports/charts/front_charts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/charts/chart.hpp"
+#include "reports/results/front.hpp"
+
+namespace cbc3d::reports {
+namespace {
+
+using metrics::metric_id;
+using metrics::MetricId;
+
+/// What a front is drawn over.
+struct FrontAxis {
+  std::string name, title;
+  FigureOf figure;
+};
+
+std::optional<double> unknowns_of(const JobResult& result) {
+  const auto solved = result.figures[metric_id("solver.poisson_p1.unknowns")];
+  return solved ? solved : result.figures[metric_id("quality.inner_vertices")];
+}
+
+std::vector<FrontAxis> front_axes() {
+  return {{"elements", "elements", shown_figure(metric_id("elements"))},
+          {"unknowns", "unknowns (vertices inside)", unknowns_of},
+          {"seconds", "meshing time (s)", shown_figure(metric_id("time_s.mesh"))}};
+}
+
+/// A key as a part of a file's name.
+std::string file_name(std::string_view key) {
+  std::string name(key);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '.' || c == '_'; }, '-');
+  return name;
+}
+
+FigureOf magnitude_of(MetricId id) {
+  return [shown = shown_figure(id)](const JobResult& result) {
+    const auto value = shown(result);
+    return value ? std::optional(std::abs(*value)) : std::nullopt;
+  };
+}
+
+/// True when a logarithmic axis has something to show: all values positive and of different sizes.
+bool deserves_logarithm(const std::vector<PointSeries>& series) {
+  constexpr double kLeastRatio = 3;
+  double lowest = HUGE_VAL, highest = 0;
+  for (const PointSeries& one : series) {
+    for (const auto& point : one.points) {
+      lowest = std::min(lowest, point.second);
+      highest = std::max(highest, point.second);
+    }
+  }
+  return lowest > 0 && highest > kLeastRatio * lowest;
+}
+
+Scatter front_of(const std::vector<JobResult>& results, const Columns& columns, const std::string& case_name,
+                 MetricId id, const FrontAxis& axis) {
+  const metrics::Metric& metric = metrics::metric(id);
+  Scatter scatter;
+  scatter.title = case_name + ": " + std::string(words(metric)) + " over " + axis.name;
+  scatter.x_title = axis.title;
+  scatter.y_title = title(metric);
+  for (const std::string& column : columns.names()) {
+    PointSeries series{column,
+                       front_points(results, columns, case_name, column, axis.figure, magnitude_of(id))};
+    if (!series.points.empty()) {
+      scatter.series.push_back(std::move(series));
+    }
+  }
+  scatter.logarithmic_x = true;
+  scatter.logarithmic_y = deserves_logarithm(scatter.series);
+  scatter.joined = true;
+  scatter.note = metric.worse == metrics::Worse::lower ? "Higher is better." : "Lower is better.";
+  return scatter;
+}
+
+}  // namespace
+
+std::vector<Figure> front_charts(const std::vector<JobResult>& results) {
+  const Columns columns(results);
+  std::vector<Figure> figures;
+  for (const std::string& case_name : image_names(results)) {
+    for (const MetricId id : front_figures()) {
+      for (const FrontAxis& axis : front_axes()) {
+        const bool is_time_over_time = id == metric_id("time_s.mesh") && axis.name == "seconds";
+        const Scatter scatter = front_of(results, columns, case_name, id, axis);
+        if (!is_time_over_time && !scatter.series.empty()) {
+          figures.push_back(
+              {"front-" + case_name + "-" + file_name(metrics::metric(id).key) + "-" + axis.name,
+               scatter.title, scatter_chart(scatter)});
+        }
+      }
+    }
+  }
+  return figures;
+}
+
+}  // namespace cbc3d::reports

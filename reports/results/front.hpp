@@ -1,0 +1,67 @@
+// Fronts: a figure of a mesher over the number of its elements, and meshers compared at equal elements.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "metrics/catalog.hpp"
+#include "reports/results/columns.hpp"
+#include "reports/results/run_values.hpp"
+
+namespace cbc3d::reports {
+
+/// The figures that are compared at equal elements, in the order of the tables.
+std::span<const metrics::MetricId> front_figures();
+
+/// A figure over the number of elements, known at some numbers.
+class FrontCurve {
+ public:
+  using Points = std::vector<std::pair<double, double>>;  ///< elements, figure
+
+  /// Points with the same number of elements become one, with their mean.
+  explicit FrontCurve(Points points);
+
+  /// The figure at a number of elements, interpolated in log-log, or linearly over the logarithm where a
+  /// figure is not positive. Up to a tenth beyond the ends it is that of the end; none farther out.
+  [[nodiscard]] std::optional<double> at(double elements) const;
+  [[nodiscard]] const Points& points() const { return points_; }
+
+ private:
+  Points points_;
+};
+
+/// The curve of a metric, in the unit in which it is shown and as a magnitude, for a case and a column: the
+/// runs that are ok and have a budget, repeats of a budget by their medians.
+FrontCurve front_curve(const std::vector<JobResult>& results, const Columns& columns,
+                       const std::string& case_name, const std::string& column, metrics::MetricId id);
+
+/// The medians of two figures of the same runs as a point each, in the order of the budgets.
+FrontCurve::Points front_points(const std::vector<JobResult>& results, const Columns& columns,
+                                const std::string& case_name, const std::string& column, const FigureOf& x,
+                                const FigureOf& y);
+
+/// By which factor a figure is worse than another: at least 1 when `value` is worse, infinite when `other` is
+/// 0 and `value` is worse. `worse` is higher or lower.
+double times_worse(double value, double other, metrics::Worse worse);
+
+/// A metric of a case at a budget for every column.
+struct FrontComparison {
+  std::string case_name;
+  std::int64_t budget = 0;
+  metrics::MetricId id{};
+  std::vector<std::optional<double>> values;  ///< of the columns
+  std::optional<std::size_t> best;            ///< column; none: no column has the figure
+  double lead = 1;                            ///< by which factor the second best is worse
+};
+
+/// All comparisons of a run, by case, budget and figure; figures that no column has are left out.
+std::vector<FrontComparison> front_comparisons(const std::vector<JobResult>& results, const Columns& columns);
+
+/// The budgets of a case, ascending.
+std::vector<std::int64_t> budgets_of(const std::vector<JobResult>& results, const std::string& case_name);
+
+}  // namespace cbc3d::reports
