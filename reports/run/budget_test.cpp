@@ -3,11 +3,13 @@
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
-#include "reports/results/testing_folder.hpp"
+#include "mesher/testing/temporary_folder.hpp"
 #include "reports/run/runner.hpp"
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::TemporaryFolder;
 
 /// A mesher with 1000 / size^3 tets, at least 20; or, with the mode "fail", with none.
 baselines::Adapter sized_mesher(const std::string& mode = "tets") {

@@ -1,6 +1,6 @@
 // A child that behaves as its first argument says: exit CODE, crash, sleep, allocate, spawn PIDFILE, say
-// TEXT, say-and-end CODE TEXT, env NAME, mesh OUT REPORT, tets OUT REPORT SIZE, solve ... OUT, and ill ways of
-// meshing.
+// TEXT, say-and-end CODE TEXT, env NAME, mesh OUT REPORT, tets OUT REPORT SIZE, solve ... OUT, and ill ways
+// of meshing.
 #include <unistd.h>
 
 #include <algorithm>
