@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <vector>
 
 #include "mesher/core/runtime.hpp"
@@ -173,6 +176,49 @@ TEST(ImproveMesh, GradationBoundsTheGrowthAndCostsTets) {
     // The lattice itself doubles from cell to cell, and is not split.
     EXPECT_LT(worst_growth(mesh, 0.2), (gradation < 0.5 ? 0.6 : 0.9) * growth) << gradation;
   }
+}
+
+/// The mean angle between neighbouring edges of the curve where two labels and the background meet, degrees.
+double mean_kink_deg(const MaterialMesh& mesh) {
+  const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  std::map<std::array<VertexId, 2>, MaterialSet>
+      edges;  // of the outside, with the materials of its facets there
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (std::size_t c = 0; neighbours[t][n] == kNoTet && c < 3; ++c) {
+        const VertexId a = mesh.tets[t][kTetFace[n][c]];
+        const VertexId b = mesh.tets[t][kTetFace[n][(c + 1) % 3]];
+        edges[{std::min(a, b), std::max(a, b)}].add(mesh.materials[t]);
+      }
+    }
+  }
+  std::map<VertexId, std::vector<VertexId>> beside;
+  for (const auto& [edge, materials] : edges) {
+    if (materials.size == 2) {
+      beside[edge[0]].push_back(edge[1]);
+      beside[edge[1]].push_back(edge[0]);
+    }
+  }
+  double sum = 0;
+  std::size_t count = 0;
+  for (const auto& [v, ends] : beside) {
+    if (ends.size() == 2) {
+      const Vec3 in = (mesh.points[v] - mesh.points[ends[0]]).normalized();
+      const Vec3 out = (mesh.points[ends[1]] - mesh.points[v]).normalized();
+      sum += std::acos(std::clamp(in.dot(out), -1.0, 1.0)) * 180 / std::numbers::pi;
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+TEST(ImproveMesh, SmoothnessStraightensTheCurveWhereLabelsMeet) {
+  const LabelImage image = touching_balls();
+  ImproveOptions free;
+  free.smoothness = 0;
+  const double kink_deg = mean_kink_deg(improved(image, free, 0.9));
+  EXPECT_GT(kink_deg, 0);
+  EXPECT_LT(mean_kink_deg(improved(image, {}, 0.9)), 0.8 * kink_deg);
 }
 
 }  // namespace
