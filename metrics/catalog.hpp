@@ -375,15 +375,7 @@ inline constexpr Metric kCatalog[] = {
     {.key = "shape.max_distance_mm", .name = "distance to the shape, largest", .unit = "mm", .decimals = 2,
      .worse = Worse::higher, .tables = "smoothness", .per_label = "shape.per_label.max_distance_mm"},
 
-    // What the fronts compare beside the rows above
-    {.key = "quality.mean_ratio.p1", .name = "mean ratio, 1 %", .decimals = 3, .worse = Worse::lower},
-    {.key = "quality.mean_ratio.median", .name = "mean ratio, median", .decimals = 3, .worse = Worse::lower},
     {.key = "quality.inner_vertices", .name = "vertices inside"},
-    {.key = "surface.facet_angle_rms_deg", .name = "angle of neighbouring facets, rms", .unit = "deg", .decimals = 1,
-     .worse = Worse::higher},
-    {.key = "topology.differences", .name = "topology differences", .worse = Worse::higher},
-    {.key = "solver.poisson_p1.h1_relative", .name = "Poisson P1, H1 error", .decimals = 4, .worse = Worse::higher},
-    {.key = "solver.poisson_p1.unknowns", .name = "Poisson P1, unknowns"},
 
     {.key = "peak_rss_bytes", .name = "peak memory", .unit = "MB", .worse = Worse::higher, .gate = &kMemory,
      .tables = "time speed", .scale = 1e-6, .repeats = Repeats::least},
