@@ -81,8 +81,12 @@ std::vector<baselines::Adapter> chosen_meshers(const Selection& selection) {
 }
 
 /// Lays a parameter set over the parameters of a case: what the meshers have under that name, then what the
-/// case has. Throws InputError where neither has any.
-void lay_over(cases::Case& subject, const std::string& set, const std::vector<baselines::Adapter>& meshers) {
+/// case has. Throws InputError where neither has any, if the set `is_needed`.
+void lay_over(cases::Case& subject, const std::string& set, bool is_needed,
+              const std::vector<baselines::Adapter>& meshers) {
+  if (set == kPublishedSet) {
+    return;
+  }
   bool is_meshers = false;
   for (const baselines::Adapter& mesher : meshers) {
     const auto found = mesher.parameter_sets.find(set);
@@ -93,7 +97,7 @@ void lay_over(cases::Case& subject, const std::string& set, const std::vector<ba
       }
     }
   }
-  if (!is_meshers || subject.parameter_sets.contains(set)) {
+  if (subject.parameter_sets.contains(set) || (is_needed && !is_meshers)) {
     cases::use_parameter_set(subject, set);
   }
 }
@@ -174,13 +178,12 @@ Bench make_bench(const Selection& selection, const std::filesystem::path& out_di
   Bench bench;
   bench.cases = chosen_cases(selection, cases_of(selection.manifests));
   bench.meshers = chosen_meshers(selection);
-  const std::string set = selection.parameter_set.empty() && selects_front(selection)
-                              ? std::string(kTunedSet)
-                              : selection.parameter_set;
-  if (!set.empty() && set != kPublishedSet) {
-    for (cases::Case& subject : bench.cases) {
-      lay_over(subject, set, bench.meshers);
-    }
+  const bool is_named = !selection.parameter_set.empty();
+  const std::string set = is_named                   ? selection.parameter_set
+                          : selects_front(selection) ? std::string(kTunedSet)
+                                                     : std::string(kPublishedSet);
+  for (cases::Case& subject : bench.cases) {
+    lay_over(subject, set, is_named, bench.meshers);
   }
   bench.bin_dir = bin_dir();
   bench.evaluate_command = {executable_file(), "evaluate"};
