@@ -12,10 +12,11 @@ namespace cbc3d {
 ///
 /// "quality" gives the best meshes we know how to make. The lattice is refined where a boundary voxel has no
 /// vertex of
-///   its interface within 1.06 voxel diagonals, or where a vertex lies farther than 1.25 from its interface,
+///   its interface within a voxel diagonal, or where a vertex lies farther than 1.25 from its interface,
 ///   instead of by the fidelity; its labels are those of the smoothed image. Vertices then move to the
 ///   boundary, and the tets are improved and decimated under guards (stage "improvement") in place of the
-///   elastic deformation. No region is dropped and no voxel is changed. With mixed elements, on which the
+///   elastic deformation. No region is dropped, and voxels change only where a label's touch at edges or
+///   corners alone, so that it has one topology. With mixed elements, on which the
 ///   improvement does not work, it is the paper's method with targets on the voxels' faces and refinement by
 ///   distance.
 /// "paper" is the published method with the published parameters. Where the paper is silent or stops, both

@@ -30,7 +30,7 @@ baselines::Adapter sized_mesher(const std::string& mode = "tets") {
   return adapter;
 }
 
-class Budgets : public testing::Test {
+class Budgets : public ::testing::Test {
  protected:
   Budgets() {
     LabelImage image;
