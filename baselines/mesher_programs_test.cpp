@@ -140,7 +140,9 @@ class MesherProgram : public ::testing::TestWithParam<std::string> {
 
 // Labels, orientation, and each box's volume and extent in physical space.
 void MesherProgram::expect_two_boxes(const Mesh& mesh, const LabelImage& image) const {
-  constexpr double kTolerance_mm = 0.75;
+  // A wrong frame is off by several millimetres. Where the sliver removal runs in parallel, its random moves
+  // take a vertex of a corner now and then as far as a facet is large.
+  const double tolerance_mm = adapter().deterministic ? 0.75 : 1;
   EXPECT_EQ(labels_of(mesh), (std::vector<Label>{kLeft.label, kRight.label}));
   const Vec3& h = image.frame.spacing_mm;
   for (const Box& box : {kLeft, kRight}) {
@@ -168,8 +170,8 @@ void MesherProgram::expect_two_boxes(const Mesh& mesh, const LabelImage& image) 
       const double from = (box.first[a] - 0.5) * h[axis];
       const double to = (box.last[a] + 0.5) * h[axis];
       truth *= to - from;
-      EXPECT_NEAR(low[axis], from, kTolerance_mm);
-      EXPECT_NEAR(high[axis], to, kTolerance_mm);
+      EXPECT_NEAR(low[axis], from, tolerance_mm);
+      EXPECT_NEAR(high[axis], to, tolerance_mm);
     }
     EXPECT_NEAR(volume / truth, 1, 0.04);
   }
