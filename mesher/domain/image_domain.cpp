@@ -19,7 +19,8 @@ bool is_thin_on(const std::array<signed char, 64>& side, int at) {
     const int base = at - (block & 1) - 4 * ((block >> 1) & 1) - 16 * (block >> 2);
     bool whole = true;
     for (const int step : {0, 1, 4, 5, 16, 17, 20, 21}) {
-      whole = whole && side[static_cast<std::size_t>(base + step)] == own;
+      const int voxel = base + step;
+      whole = whole && side[static_cast<std::size_t>(voxel)] == own;
     }
     if (whole) {
       return false;

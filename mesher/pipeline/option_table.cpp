@@ -35,7 +35,7 @@ using Consequence = std::function<void(MeshImageOptions&)>;
 // [](auto& o) -> auto& { return o.clean.seed; }.
 
 template <typename Field>
-OptionRow number(OptionRow row, Field field, NumberRange range, Consequence then = {}) {
+OptionRow number(OptionRow row, Field field, NumberRange range, const Consequence& then = {}) {
   row.kind = OptionKind::number;
   row.range = range;
   row.get = [field](const MeshImageOptions& o) { return OptionValue(field(o)); };
@@ -87,7 +87,7 @@ OptionRow choice(OptionRow row, Field field, const ChoiceNames<Enum>& names) {
 }
 
 template <typename Field>
-OptionRow label_numbers(OptionRow row, Field field, NumberRange range, Consequence then = {}) {
+OptionRow label_numbers(OptionRow row, Field field, NumberRange range, const Consequence& then = {}) {
   row.kind = OptionKind::label_numbers;
   row.range = range;
   row.get = [field](const MeshImageOptions& o) { return OptionValue(field(o)); };
