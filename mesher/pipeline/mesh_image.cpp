@@ -175,6 +175,15 @@ void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
   }
 }
 
+/// Where the image has more parts than so few elements can hold, or the lattice is too coarse for so many.
+void warn_of_elements(const MeshImageOptions& options, std::size_t tets, MeshImageReport& report) {
+  const auto wanted = static_cast<double>(options.elements);
+  if (options.elements > 0 && std::fabs(static_cast<double>(tets) - wanted) > 0.1 * wanted) {
+    report.warnings.push_back("elements " + std::to_string(options.elements) +
+                              " could not be met: the mesh has " + std::to_string(tets));
+  }
+}
+
 /// Tets that are not background.
 std::size_t labelled_tets(const CandidateMesh& mesh) {
   return mesh.materials.size() -
@@ -286,6 +295,7 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
     });
     log.dump("5_improved_mesh", mesh);
     warn_of_angles(options, report);
+    warn_of_elements(options, mesh.tets.size(), report);
   }
   return mesh;
 }

@@ -291,6 +291,18 @@ TEST(MeshImage, ANumberOfElementsIsMetWithinATenth) {
   }
 }
 
+TEST(MeshImage, ANumberOfElementsThatTheImageForbidsIsSaid) {
+  const LabelImage image = testing::ball_image(24, 1, 9, 4);
+  MeshImageOptions options = preset_options("quality", image.frame);
+  options.elements = 5;
+  MeshImageReport report;
+  const Mesh mesh = mesh_of(image, options, report);
+  EXPECT_GT(mesh.tets.size(), 5U);
+  EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& warning) {
+    return warning.find("elements 5 could not be met") == 0;
+  }));
+}
+
 TEST(MeshImage, AnEdgeLengthIsThatOfTheSurfaces) {
   const LabelImage image = testing::ball_image(48, 1, 18);
   for (const double length_mm : {1.5, 3.0, 5.0}) {
