@@ -4,37 +4,11 @@
 #include <cmath>
 
 #include "mesher/improve/local/local_volume_change.hpp"
+#include "mesher/improve/local/surface_neighbours.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
 
 namespace cbc3d {
 namespace {
-
-/// A neighbour along an interface, with the number of facets at the edge to it.
-struct SurfaceNeighbour {
-  VertexId vertex;
-  std::uint32_t facets;
-};
-
-void surface_neighbours(const std::vector<FacetAt>& facets, std::vector<SurfaceNeighbour>& neighbours) {
-  neighbours.clear();
-  for (const FacetAt& f : facets) {
-    for (const VertexId w : {f.first, f.second}) {
-      const auto found =
-          std::find_if(neighbours.begin(), neighbours.end(), [&](const auto& s) { return s.vertex == w; });
-      if (found == neighbours.end()) {
-        neighbours.push_back({w, 1});
-      } else {
-        ++found->facets;
-      }
-    }
-  }
-}
-
-std::uint32_t facets_to(const std::vector<SurfaceNeighbour>& neighbours, VertexId v) {
-  const auto found =
-      std::find_if(neighbours.begin(), neighbours.end(), [&](const auto& s) { return s.vertex == v; });
-  return found == neighbours.end() ? 0 : found->facets;
-}
 
 class EdgeCollapser {
  public:

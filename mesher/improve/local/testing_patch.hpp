@@ -12,6 +12,7 @@
 
 #include "mesher/domain/domain.hpp"
 #include "mesher/improve/local/patch.hpp"
+#include "mesher/improve/local/tet_shape.hpp"
 
 namespace cbc3d::testing {
 
@@ -80,11 +81,12 @@ inline TetComplex tets_around_edge(std::size_t count, double h) {
           std::vector<std::uint8_t>(vertices, 0)};
 }
 
-/// Number, volume and worst angle of the tets.
+/// Number, volume, worst quality and worst angle of the tets.
 struct Summary {
   std::size_t tets = 0;
   double volume_mm3 = 0;
   double worst_quality = 1;
+  double worst_sine_squared = 1;
 };
 inline Summary summary_of(const TetComplex& mesh) {
   Summary sum;
@@ -95,6 +97,9 @@ inline Summary summary_of(const TetComplex& mesh) {
       sum.volume_mm3 +=
           six_volumes(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2]), mesh.point(n[3])) / 6;
       sum.worst_quality = std::min(sum.worst_quality, mesh.quality(t));
+      sum.worst_sine_squared =
+          std::min(sum.worst_sine_squared,
+                   min_sine_squared(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2]), mesh.point(n[3])));
     }
   }
   return sum;

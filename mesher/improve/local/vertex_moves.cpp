@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mesher/improve/local/star_quality.hpp"
+#include "mesher/improve/local/surface_neighbours.hpp"
 #include "mesher/improve/local/tet_shape.hpp"
 
 namespace cbc3d {
@@ -48,6 +49,7 @@ struct VertexMover {
   std::vector<Plane> flat;   // in which the neighbours on the same interface would have the vertex
   std::vector<Vec3> normal;  // of vertices on one interface alone, zero elsewhere; empty: no smoothness
   std::vector<std::array<MaterialId, 2>> pairs;
+  std::vector<SurfaceNeighbour> beside;  // scratch
 
   explicit VertexMover(Patch& p) : patch(p) {}
 
@@ -168,13 +170,12 @@ struct VertexMover {
   /// The two neighbours at edges where three facets meet or more; nothing where there are fewer or more of
   /// them.
   std::optional<std::array<VertexId, 2>> ends_on_curve() {
+    cbc3d::surface_neighbours(patch.facets, beside);
     std::array<VertexId, 2> ends{};
     std::size_t count = 0;
-    for (const VertexId w : surface_neighbours()) {
-      const auto facets = std::count_if(patch.facets.begin(), patch.facets.end(),
-                                        [w](const FacetAt& f) { return f.first == w || f.second == w; });
-      if (facets > 2 && count++ < 2) {
-        ends[count - 1] = w;
+    for (const SurfaceNeighbour& s : beside) {
+      if (s.facets > 2 && count++ < 2) {
+        ends[count - 1] = s.vertex;
       }
     }
     return count == 2 ? std::optional(ends) : std::nullopt;
