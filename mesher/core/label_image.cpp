@@ -13,14 +13,21 @@ Index3 ImageFrame::index_of(std::size_t offset) const {
           static_cast<int>(offset / nx / ny)};
 }
 
-MaterialId LabelImage::at_local(const Vec3& local_mm) const {
-  const double i = std::floor(local_mm[0] / frame.spacing_mm[0] + 0.5);
-  const double j = std::floor(local_mm[1] / frame.spacing_mm[1] + 0.5);
-  const double k = std::floor(local_mm[2] / frame.spacing_mm[2] + 0.5);
-  if (i < 0 || j < 0 || k < 0 || i >= frame.size[0] || j >= frame.size[1] || k >= frame.size[2]) {
-    return kBackground;
+std::optional<Index3> ImageFrame::voxel_at_local(const Vec3& local_mm) const {
+  Index3 at{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double index = std::floor(local_mm[axis] / spacing_mm[axis] + 0.5);
+    if (index < 0 || index >= size[axis]) {
+      return std::nullopt;
+    }
+    at[axis] = static_cast<int>(index);
   }
-  return at(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
+  return at;
+}
+
+MaterialId LabelImage::at_local(const Vec3& local_mm) const {
+  const std::optional<Index3> voxel = frame.voxel_at_local(local_mm);
+  return voxel ? at((*voxel)[0], (*voxel)[1], (*voxel)[2]) : kBackground;
 }
 
 std::vector<std::size_t> LabelImage::voxels_per_material() const {

@@ -43,6 +43,8 @@ struct ImageFrame {
   [[nodiscard]] Vec3 local_centre(int i, int j, int k) const {
     return {i * spacing_mm[0], j * spacing_mm[1], k * spacing_mm[2]};
   }
+  /// The voxel whose centre is nearest to a local position; none outside the image.
+  [[nodiscard]] std::optional<Index3> voxel_at_local(const Vec3& local_mm) const;
   [[nodiscard]] Vec3 to_physical(const Vec3& local_mm) const { return origin_mm + direction * local_mm; }
   [[nodiscard]] Vec3 to_local(const Vec3& physical_mm) const {
     return direction.transposed() * (physical_mm - origin_mm);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "mesher/domain/simple_point.hpp"
 #include "mesher/domain/tolerances.hpp"
 
 namespace cbc3d {
@@ -61,50 +62,6 @@ bool is_thin_at(const LabelImage& image, const Index3& at) {
   return true;
 }
 
-using Neighbourhood = std::array<bool, 27>;  // of a voxel, itself at 13: which are of its material
-
-constexpr std::size_t kCentre = 13;
-
-Index3 neighbour(const Index3& at, std::size_t n) {
-  const int s = static_cast<int>(n);
-  return {at[0] + s % 3 - 1, at[1] + s / 3 % 3 - 1, at[2] + s / 9 - 1};
-}
-
-/// The components of those neighbours that are (not) of the voxel's material: own ones across faces, within
-/// the 18 that share a face or an edge with it, and only such as touch it by a face; others across corners
-/// too.
-int count_pieces(const Neighbourhood& around, bool own) {
-  const auto coordinates = [](std::size_t n) { return neighbour({0, 0, 0}, n); };
-  const auto length = [](const Index3& d) { return std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]); };
-  std::array<bool, 27> seen{};
-  int pieces = 0;
-  for (std::size_t start = 0; start < 27; ++start) {
-    const auto usable = [&](std::size_t n) {
-      return n != kCentre && !seen[n] && around[n] == own && (!own || length(coordinates(n)) < 3);
-    };
-    if (!usable(start) || (own && length(coordinates(start)) != 1)) {
-      continue;
-    }
-    ++pieces;
-    std::array<std::size_t, 27> stack{start};
-    seen[start] = true;
-    for (std::size_t count = 1; count > 0;) {
-      const Index3 a = coordinates(stack[--count]);
-      for (std::size_t n = 0; n < 27; ++n) {
-        const Index3 b = coordinates(n);
-        const Index3 d = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-        const bool joined =
-            own ? length(d) == 1 : std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}) == 1;
-        if (joined && usable(n)) {
-          seen[n] = true;
-          stack[count++] = n;
-        }
-      }
-    }
-  }
-  return pieces;
-}
-
 Index3 neighbour_across(Index3 at, std::size_t side) {
   at[side / 2] += side % 2 == 0 ? 1 : -1;
   return at;
@@ -138,14 +95,13 @@ void add_candidates(const LabelImage& image, int k, std::vector<std::size_t>& ca
   }
 }
 
-/// True when a voxel is simple (Bertrand and Malandain, A new characterization of three-dimensional simple
-/// points, Pattern Recognition Letters 15, 1994) with the bumps before it gone. Beside another material's
-/// bump it is not known what is to be there.
-bool is_simple(const LabelImage& image, const std::vector<std::size_t>& bumps, const Index3& at) {
+/// True when a voxel is simple with the bumps before it gone. Beside another material's bump it is not known
+/// what is to be there.
+bool is_simple_bump(const LabelImage& image, const std::vector<std::size_t>& bumps, const Index3& at) {
   const MaterialId own = image.at(at[0], at[1], at[2]);
-  Neighbourhood around{};
+  VoxelNeighbourhood around{};
   for (std::size_t n = 0; n < around.size(); ++n) {
-    const Index3 next = neighbour(at, n);
+    const Index3 next = voxel_neighbour(at, n);
     const bool is_own = image.at_or_background(next[0], next[1], next[2]) == own;
     const bool was_bump =
         image.frame.contains(next[0], next[1], next[2]) &&
@@ -155,7 +111,7 @@ bool is_simple(const LabelImage& image, const std::vector<std::size_t>& bumps, c
     }
     around[n] = is_own && !was_bump;
   }
-  return count_pieces(around, true) == 1 && count_pieces(around, false) == 1;
+  return is_simple(around);
 }
 
 std::vector<std::size_t> find_bumps(const LabelImage& image) {
@@ -167,7 +123,7 @@ std::vector<std::size_t> find_bumps(const LabelImage& image) {
   std::vector<std::size_t> bumps;
   for (const auto& slice : of_slice) {
     for (const std::size_t offset : slice) {
-      if (is_simple(image, bumps, image.frame.index_of(offset))) {
+      if (is_simple_bump(image, bumps, image.frame.index_of(offset))) {
         bumps.push_back(offset);
       }
     }

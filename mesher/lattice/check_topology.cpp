@@ -92,6 +92,7 @@ class Repair {
          const TopologyOptions& options)
       : mesh_(mesh),
         points_(points),
+        domain_(domain),
         image_(domain.image()),
         options_(options),
         classes_(image_.labels),
@@ -130,7 +131,7 @@ class Repair {
     // become fewer by removal, and what the bound would leave is counted below, so nothing is hidden.
     for (int pass = 0; pass < kMostPasses; ++pass) {
       repair_vertices(std::move(bad));
-      if (remove_small_components() == 0) {
+      if (remove_small_components() + remove_crumbs() == 0) {
         break;
       }
       bad = find_bad();
@@ -315,22 +316,23 @@ class Repair {
     }
   }
 
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   /// Face-connected components of labelled tets: the component of every tet, and for each its class and
   /// volume.
   struct Components {
-    std::vector<std::uint32_t> of_tet;
+    std::vector<std::uint32_t> of_tet;  // kNone where it is of none
     std::vector<ClassId> class_of;
     std::vector<double> volume;
     std::vector<Vec3> centroid;  // local mm
   };
 
-  [[nodiscard]] Components find_components() const {
-    constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  /// Those of background too, if it is asked for.
+  [[nodiscard]] Components find_components(bool with_background = false) const {
     Components found;
     found.of_tet.assign(mesh_.tets.size(), kNone);
     std::vector<TetId> stack;
     for (std::size_t start = 0; start < found.of_tet.size(); ++start) {
-      if (class_of_tet_[start] == 0 || found.of_tet[start] != kNone) {
+      if ((class_of_tet_[start] == 0 && !with_background) || found.of_tet[start] != kNone) {
         continue;
       }
       const auto number = static_cast<std::uint32_t>(found.class_of.size());
@@ -394,13 +396,40 @@ class Repair {
     return removed;
   }
 
+  /// Relabels components, background's too, that are smaller than an eighth of a voxel or of which no tet has
+  /// its centroid in a voxel of its own label: what they are in has no such part and no such cavity.
+  std::size_t remove_crumbs() {
+    if (!options_.drop_crumbs) {
+      return 0;
+    }
+    const double smallest_mm3 = domain_.cell_mm3() / 8;
+    const Components components = find_components(true);
+    std::vector<std::uint8_t> remove(components.class_of.size(), 1);
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
+      std::uint8_t& is_crumb = remove[components.of_tet[t]];
+      if (is_crumb != 0 && components.volume[components.of_tet[t]] >= smallest_mm3) {
+        const auto& n = mesh_.tets.nodes[t];
+        const Vec3 centroid = 0.25 * (points_[n[0]] + points_[n[1]] + points_[n[2]] + points_[n[3]]);
+        is_crumb = classes_.of_material[image_.at_local(centroid)] == class_of_tet_[t] ? 0 : 1;
+      }
+    }
+    const auto removed = static_cast<std::size_t>(std::count(remove.begin(), remove.end(), 1));
+    if (removed > 0) {
+      touched_.clear();
+      relabel_components(components, remove);
+      keep_one_face_rule();
+      report_.components_removed += removed;
+    }
+    return removed;
+  }
+
   /// Each removed component goes to the material across most of its outer faces; ties to background, then the
   /// lower number.
   void relabel_components(const Components& components, const std::vector<std::uint8_t>& remove) {
     std::map<std::pair<std::uint32_t, MaterialId>, std::size_t> faces;
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
       const std::uint32_t c = components.of_tet[t];
-      if (class_of_tet_[t] == 0 || remove[c] == 0) {
+      if (c == kNone || remove[c] == 0) {
         continue;
       }
       for (const TetId n : mesh_.neighbours[t]) {
@@ -418,7 +447,7 @@ class Repair {
     }
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
       const std::uint32_t c = components.of_tet[t];
-      if (class_of_tet_[t] != 0 && remove[c] != 0) {
+      if (c != kNone && remove[c] != 0) {
         relabel(static_cast<TetId>(t), winner[c].second);
       }
     }
@@ -448,7 +477,8 @@ class Repair {
 
   CandidateMesh& mesh_;
   const std::vector<Vec3>& points_;
-  const LabelImage& image_;
+  const ImageDomain& domain_;
+  const LabelImage& image_;  // of the domain
   const TopologyOptions& options_;
   Classes classes_;
   const MaterialVoxels& voxels_;

@@ -6,15 +6,18 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "mesher/domain/coverage.hpp"
 #include "mesher/domain/size_rank.hpp"
 #include "mesher/lattice/check_topology.hpp"
+#include "mesher/lattice/exact_voxels.hpp"
 #include "mesher/lattice/fidelity_account.hpp"
 #include "mesher/lattice/lattice_places.hpp"
 #include "mesher/lattice/red_green.hpp"
 #include "mesher/lattice/select_candidate.hpp"
 #include "mesher/lattice/voxel_raster.hpp"
+#include "mesher/lattice/voxel_topology.hpp"
 
 namespace cbc3d {
 namespace {
@@ -27,6 +30,8 @@ class Refiner {
         image_(domain.image()),
         options_(options),
         raster_(image_.frame, lattice.frame),
+        parts_(voxel_parts(image_.frame)),
+        part_frame_(part_frame(image_.frame)),
         account_(image_, raster_, domain.voxels().count),
         red_green_(lattice),
         follower_(lattice),
@@ -44,6 +49,9 @@ class Refiner {
     }
     if (interfaces_ || coverage_) {
       places_.emplace(image_.frame, lattice.frame);
+    }
+    if (options.keep_topology) {
+      part_raster_.emplace(image_.frame, lattice.frame, parts_);
     }
   }
 
@@ -90,6 +98,14 @@ class Refiner {
     });
   }
 
+  [[nodiscard]] Vec3 centroid_of(std::size_t t) const {
+    Vec3 centroid;
+    for (const VertexId v : result_.mesh.tets.nodes[t]) {
+      centroid += 0.25 * points_[v];
+    }
+    return centroid;
+  }
+
   /// The material of a tet is that of the image at its centroid: the one whose signed distance is positive
   /// there.
   void label_by_centroid() {
@@ -97,18 +113,18 @@ class Refiner {
 #pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
       if (judged_[t] == kNotJudged) {
-        Vec3 centroid;
-        for (const VertexId v : mesh.tets.nodes[t]) {
-          centroid += 0.25 * points_[v];
-        }
-        centroid_material_[t] =
-            options_.smooth_labels ? domain_.material_at(centroid) : image_.at_local(centroid);
+        centroid_material_[t] = material_at(centroid_of(t));
       }
     }
     mesh.materials.assign(centroid_material_.begin(), centroid_material_.end());
     if (options_.one_face_rule) {
       select_candidate(mesh.neighbours, rank_, mesh.materials);
     }
+  }
+
+  [[nodiscard]] MaterialId material_at(const Vec3& x) const {
+    return options_.smooth_labels && !(exact_ && exact_->holds(x)) ? domain_.material_at(x)
+                                                                   : image_.at_local(x);
   }
 
   /// True while what is known of the tet is of another material than it has now, or nothing.
@@ -305,6 +321,8 @@ class Refiner {
         repairs_ < options_.repair_rounds) {
       ++repairs_;
       mark_what_repair_loses();
+      const std::size_t lost = count_splittable();
+      return lost > 0 ? lost : mark_topology_differences();
     }
     return count_splittable();
   }
@@ -316,8 +334,88 @@ class Refiner {
                     {.enabled = true,
                      .one_face_rule = options_.one_face_rule,
                      .image_passes = options_.repair_image_passes,
+                     .drop_crumbs = options_.keep_topology,
                      .small_component = 0});
     judge();
+  }
+
+  /// The parts of voxels that are in tets of other materials than their own, by offset.
+  [[nodiscard]] std::vector<MisplacedPart> misplaced_parts() const {
+    std::vector<MisplacedPart> misplaced;
+#pragma omp parallel
+    {
+      std::vector<MisplacedPart> own;
+#pragma omp for schedule(dynamic, 1024) nowait
+      for (std::size_t t = 0; t < foreign_.size(); ++t) {
+        add_misplaced(t, own);
+      }
+#pragma omp critical(cbc3d_misplaced)
+      misplaced.insert(misplaced.end(), own.begin(), own.end());
+    }
+    std::sort(misplaced.begin(), misplaced.end(),
+              [](const MisplacedPart& a, const MisplacedPart& b) { return a.offset < b.offset; });
+    return misplaced;
+  }
+
+  void add_misplaced(std::size_t t, std::vector<MisplacedPart>& misplaced) const {
+    const MaterialId own = result_.mesh.materials[t];
+    part_raster_->for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
+      for (int i = i_begin; i < i_end; ++i) {
+        if (image_.at(i / parts_[0], j / parts_[1], k / parts_[2]) != own) {
+          misplaced.push_back({part_frame_.offset(i, j, k), own});
+        }
+      }
+    });
+  }
+
+  /// Where the repaired mesh has another topology than the image, voxels around are taken as they are, on a
+  /// lattice finer than they are. Returns how many tets of it are to be split or to be labelled anew.
+  std::size_t mark_topology_differences() {
+    if (!options_.keep_topology) {
+      return 0;
+    }
+    const std::vector<MisplacedPart> misplaced = misplaced_parts();
+    result_.topology_differences = find_topology_differences(image_, misplaced);
+    if (result_.topology_differences.empty()) {
+      return 0;
+    }
+    if (!exact_) {
+      exact_.emplace(image_.frame);
+    }
+    exact_->add(result_.topology_differences, voxels_of_parts(image_.frame, misplaced));
+    std::size_t changed = 0;
+#pragma omp parallel for schedule(dynamic, 1024) reduction(+ : changed)
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      changed += take_voxels(t) ? 1 : 0;
+    }
+    return changed;
+  }
+
+  /// True when the tet is in an exact voxel and has another label, or holds a part of another label still and
+  /// is to be split.
+  bool take_voxels(std::size_t t) {
+    const Vec3 centroid = centroid_of(t);
+    if (!exact_->holds(centroid)) {
+      return false;
+    }
+    const MaterialId now = image_.at_local(centroid);
+    const MaterialId before = std::exchange(centroid_material_[t], now);
+    const bool is_split = level_of(t) < lattice_.frame.max_level && holds_part_of_other(t, now);
+    if (is_split) {
+      mark_tet(t);
+    }
+    return is_split || before != now;
+  }
+
+  [[nodiscard]] bool holds_part_of_other(std::size_t t, MaterialId own) const {
+    bool found = false;
+    part_raster_->for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
+      for (int i = i_begin; i < i_end && !found; ++i) {
+        found = image_.at(i / parts_[0], j / parts_[1], k / parts_[2]) != own;
+      }
+      return found;
+    });
+    return found;
   }
 
   /// Noise asks for the finest lattice everywhere. A real image needs 6 to 15 tets for each boundary sample,
@@ -487,43 +585,12 @@ class Refiner {
     }
   }
 
-  /// One line a label, though each of its regions is a material of its own.
-  void warn_of_unmet() {
-    std::map<Label, std::vector<MaterialFidelity>> of_label;
-    for (const MaterialFidelity& f : result_.fidelity) {
-      of_label[f.label].push_back(f);
-    }
-    const auto worst_of = [](const MaterialFidelity& f) { return std::min(f.f1(), f.f2()); };
-    for (const auto& [label, regions] : of_label) {
-      const auto unmet =
-          std::count_if(regions.begin(), regions.end(), [](const MaterialFidelity& f) { return !f.met(); });
-      const MaterialFidelity& worst =
-          *std::min_element(regions.begin(), regions.end(), [&](const auto& a, const auto& b) {
-            return a.met() != b.met() ? b.met() : worst_of(a) < worst_of(b);
-          });
-      if (unmet == 0) {
-        continue;
-      }
-      std::string where;
-      if (regions.size() > 1) {
-        where = " in " + std::to_string(unmet) + " of its " + std::to_string(regions.size()) + " regions";
-      }
-      char text[256];
-      std::snprintf(
-          text, sizeof(text),
-          "label %d: fidelity %.3f not met%s (%sF1 = %.4f, F2 = %.4f): the lattice may not be finer "
-          "than %.3g mm",
-          label, worst.wanted, where.c_str(), unmet > 1 ? "worst: " : "", worst.f1(), worst.f2(),
-          options_.finest_spacing_mm);
-      result_.warnings.emplace_back(text);
-    }
-  }
-
   void finish() {
     result_.uncovered_voxels = coverage_ ? coverage_->uncovered_count() : 0;
     result_.uncovered_voxels += interfaces_ ? interfaces_->uncovered_count() : 0;
     result_.fidelity.erase(result_.fidelity.begin());  // background
-    warn_of_unmet();
+    const auto unmet = warnings_of_unmet_fidelity(result_.fidelity, options_.finest_spacing_mm);
+    result_.warnings.insert(result_.warnings.end(), unmet.begin(), unmet.end());
     char text[256];
     if (result_.uncovered_voxels > 0) {
       std::snprintf(
@@ -540,9 +607,13 @@ class Refiner {
   const LabelImage& image_;  // of the domain
   const RefineOptions& options_;
   VoxelRaster raster_;
+  Index3 parts_;  // of a voxel, by axis
+  ImageFrame part_frame_;
+  std::optional<VoxelRaster> part_raster_;  // with keep_topology
   FidelityAccount account_;
   std::optional<BoundaryCoverage> coverage_;
   std::optional<InterfaceCoverage> interfaces_;
+  std::optional<ExactVoxels> exact_;     // none before a difference in topology is found
   std::optional<LatticePlaces> places_;  // of the voxels that interfaces_ or coverage_ wants
   std::vector<MaterialSet> sets_;        // of interfaces_' last update
   RedGreenRefiner red_green_;

@@ -11,6 +11,7 @@
 #include "mesher/domain/image_domain.hpp"
 #include "mesher/lattice/candidate_mesh.hpp"
 #include "mesher/lattice/lattice.hpp"
+#include "mesher/lattice/material_fidelity.hpp"
 
 namespace cbc3d {
 
@@ -37,33 +38,17 @@ struct RefineOptions {
   int repair_rounds =
       0;  ///< how often, at most, the distance is judged again after the repair of the topology
   int repair_image_passes = 0;  ///< TopologyOptions::image_passes of that repair
+  bool keep_topology = false;   ///< with repair_rounds: refine also where the repaired mesh has another
+                                ///< topology than the image, and take the voxels' own labels there
   int max_rounds = 40;          ///< a bound that is never reached unless something is wrong
-};
-
-/// How well the sub-mesh of one material matches its voxels. S1: voxels in the sub-mesh, S2: voxels of the
-/// material.
-struct MaterialFidelity {
-  MaterialId material = 0;
-  Label label = 0;
-  double wanted = 0;              ///< F
-  std::size_t mesh_voxels = 0;    ///< |S1|
-  std::size_t image_voxels = 0;   ///< |S2|
-  std::size_t common_voxels = 0;  ///< |S1 n S2|
-
-  [[nodiscard]] double f1() const { return mesh_voxels == 0 ? 0 : ratio(mesh_voxels); }
-  [[nodiscard]] double f2() const { return image_voxels == 0 ? 1 : ratio(image_voxels); }
-  [[nodiscard]] bool met() const { return wanted <= f1() && wanted <= f2(); }
-
- private:
-  [[nodiscard]] double ratio(std::size_t of) const {
-    return static_cast<double>(common_voxels) / static_cast<double>(of);
-  }
 };
 
 struct RefineResult {
   CandidateMesh mesh;
   std::vector<MaterialFidelity> fidelity;  ///< one per labelled material
   std::size_t uncovered_voxels = 0;  ///< boundary voxels beyond max_distance_mm that could not be reached
+  std::vector<std::size_t> topology_differences;  ///< with keep_topology: offsets of voxels where a label's
+                                                  ///< topology could not be kept, ascending
   int rounds = 0;
   std::vector<std::string> warnings;  ///< which materials fall short, and why the rounds ended
 };

@@ -18,20 +18,21 @@ std::int64_t ceil_div(std::int64_t dividend, std::int64_t divisor) {
 
 }  // namespace
 
-VoxelRaster::VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice) {
+VoxelRaster::VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice, const Index3& parts) {
   const double scale = static_cast<double>(Fixed{1} << kFractionBits) / lattice.unit_mm;
   for (int d = 0; d < 3; ++d) {
     const auto axis = static_cast<std::size_t>(d);
-    axes_[axis] = make_axis(image.size[axis], image.spacing_mm[d], lattice.origin_mm[d], scale);
+    axes_[axis] = make_axis(image.size[axis], parts[axis], image.spacing_mm[d], lattice.origin_mm[d], scale);
   }
 }
 
-VoxelRaster::Axis VoxelRaster::make_axis(int size, double spacing_mm, double origin_mm, double scale) {
+VoxelRaster::Axis VoxelRaster::make_axis(int size, int parts, double spacing_mm, double origin_mm, double scale) {
   Axis axis;
-  axis.inverse_step = 1 / (spacing_mm * scale);
-  axis.centre.resize(static_cast<std::size_t>(size));
+  axis.inverse_step = parts / (spacing_mm * scale);
+  axis.centre.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(parts));
   for (std::size_t i = 0; i < axis.centre.size(); ++i) {
-    axis.centre[i] = std::llround((static_cast<double>(i) * spacing_mm - origin_mm) * scale);
+    const double index = (static_cast<double>(i) + 0.5) / parts - 0.5;
+    axis.centre[i] = std::llround((index * spacing_mm - origin_mm) * scale);
   }
   axis.first_unit = static_cast<std::int32_t>(axis.centre.front() >> kFractionBits) - 1;
   const auto last_unit = static_cast<std::int32_t>(axis.centre.back() >> kFractionBits) + 1;

@@ -18,7 +18,8 @@ namespace cbc3d {
 
 class VoxelRaster {
  public:
-  VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice);
+  /// With `parts` above 1 the voxels of an image that is so many times as fine along each axis.
+  VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice, const Index3& parts = {1, 1, 1});
 
   /// Calls row(j, k, i_begin, i_end) for every run of voxels inside the positively oriented tet. A row that
   /// returns true ends it.
@@ -59,7 +60,7 @@ class VoxelRaster {
     }
   };
 
-  static Axis make_axis(int size, double spacing_mm, double origin_mm, double scale);
+  static Axis make_axis(int size, int parts, double spacing_mm, double origin_mm, double scale);
 
   template <typename Row>
   static bool ends(Row& row, int j, int k, int i_begin, int i_end) {

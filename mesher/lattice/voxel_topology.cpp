@@ -1,0 +1,144 @@
+#include "mesher/lattice/voxel_topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "mesher/domain/simple_point.hpp"
+
+namespace cbc3d {
+namespace {
+
+/// The image on its way to the mesh's labels.
+class Transition {
+ public:
+  Transition(const LabelImage& image, const std::vector<MisplacedPart>& misplaced)
+      : image_(image),
+        parts_(voxel_parts(image.frame)),
+        frame_(part_frame(image.frame)),
+        misplaced_(misplaced),
+        is_done_(misplaced.size(), 0) {}
+
+  /// Those of the misplaced that cannot change.
+  std::vector<MisplacedPart> run() {
+    std::vector<std::size_t> waiting(misplaced_.size());
+    std::iota(waiting.begin(), waiting.end(), std::size_t{0});
+    for (std::size_t before = waiting.size() + 1; waiting.size() < before;) {
+      before = waiting.size();
+      pass(waiting);
+      std::reverse(waiting.begin(), waiting.end());  // a chain that goes the other way takes one pass too
+    }
+    std::vector<MisplacedPart> left;
+    for (const std::size_t i : waiting) {
+      left.push_back(misplaced_[i]);
+    }
+    return left;
+  }
+
+ private:
+  /// Those of `waiting` that can change, do, one after the other.
+  void pass(std::vector<std::size_t>& waiting) {
+    std::size_t kept = 0;
+    for (const std::size_t i : waiting) {
+      if (can_change(i)) {
+        is_done_[i] = 1;
+      } else {
+        waiting[kept++] = i;
+      }
+    }
+    waiting.resize(kept);
+  }
+
+  [[nodiscard]] bool can_change(std::size_t i) const {
+    const Index3 at = frame_.index_of(misplaced_[i].offset);
+    std::array<Label, 27> label{};
+    for (std::size_t n = 0; n < label.size(); ++n) {
+      label[n] = label_now(voxel_neighbour(at, n));
+    }
+    const Label from = image_.labels[in_image(at)];
+    const Label to = image_.labels[misplaced_[i].in_mesh];
+    return from == to || (is_simple_for(label, from) && is_simple_for(label, to));
+  }
+
+  static bool is_simple_for(const std::array<Label, 27>& label, Label own) {
+    if (own == 0) {
+      return true;
+    }
+    VoxelNeighbourhood around{};
+    VoxelNeighbourhood others{};
+    for (std::size_t n = 0; n < around.size(); ++n) {
+      around[n] = label[n] == own;
+      others[n] = label[n] != own;
+    }
+    return is_simple(around) && is_simple(others);
+  }
+
+  [[nodiscard]] Label label_now(const Index3& at) const {
+    if (!frame_.contains(at[0], at[1], at[2])) {
+      return 0;
+    }
+    const std::size_t offset = frame_.offset(at[0], at[1], at[2]);
+    const auto found = std::lower_bound(misplaced_.begin(), misplaced_.end(), offset,
+                                        [](const MisplacedPart& p, std::size_t o) { return p.offset < o; });
+    const bool is_changed = found != misplaced_.end() && found->offset == offset &&
+                            is_done_[static_cast<std::size_t>(found - misplaced_.begin())] != 0;
+    return image_.labels[is_changed ? found->in_mesh : in_image(at)];
+  }
+
+  [[nodiscard]] MaterialId in_image(const Index3& at) const {
+    return image_.at(at[0] / parts_[0], at[1] / parts_[1], at[2] / parts_[2]);
+  }
+
+  const LabelImage& image_;
+  const Index3 parts_;
+  const ImageFrame frame_;  // of the parts
+  const std::vector<MisplacedPart>& misplaced_;
+  std::vector<std::uint8_t> is_done_;
+};
+
+}  // namespace
+
+Index3 voxel_parts(const ImageFrame& image) {
+  constexpr int kFewest = 2;
+  constexpr int kMost = 8;  // of needles and plates
+  Index3 parts{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double length = image.spacing_mm[axis] / image.spacing_mm.min_coeff();
+    parts[axis] = std::clamp(static_cast<int>(std::lround(kFewest * std::min<double>(length, kMost))), kFewest, kMost);
+  }
+  return parts;
+}
+
+ImageFrame part_frame(const ImageFrame& image) {
+  const Index3 parts = voxel_parts(image);
+  ImageFrame frame = image;
+  Vec3 corner;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    frame.size[axis] *= parts[axis];
+    frame.spacing_mm[axis] /= parts[axis];
+    corner[axis] = (frame.spacing_mm[axis] - image.spacing_mm[axis]) / 2;
+  }
+  frame.origin_mm = image.to_physical(corner);
+  return frame;
+}
+
+std::vector<std::size_t> find_topology_differences(const LabelImage& image,
+                                                   const std::vector<MisplacedPart>& misplaced) {
+  return voxels_of_parts(image.frame, Transition(image, misplaced).run());
+}
+
+std::vector<std::size_t> voxels_of_parts(const ImageFrame& image, const std::vector<MisplacedPart>& parts) {
+  const Index3 cut = voxel_parts(image);
+  const ImageFrame frame = part_frame(image);
+  std::vector<std::size_t> voxels;
+  for (const MisplacedPart& part : parts) {
+    const Index3 at = frame.index_of(part.offset);
+    voxels.push_back(image.offset(at[0] / cut[0], at[1] / cut[1], at[2] / cut[2]));
+  }
+  std::sort(voxels.begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  return voxels;
+}
+
+}  // namespace cbc3d
