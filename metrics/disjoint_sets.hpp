@@ -25,6 +25,20 @@ class DisjointSets {
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
+  /// The numbers of each set, ascending; the sets by their roots.
+  std::vector<std::vector<std::uint32_t>> members() {
+    std::vector<std::vector<std::uint32_t>> sets;
+    std::vector<std::size_t> set_of(size());
+    for (std::uint32_t n = 0; n < size(); ++n) {
+      const std::uint32_t first = root(n);
+      if (first == n) {
+        set_of[n] = sets.size();
+        sets.emplace_back();
+      }
+      sets[set_of[first]].push_back(n);
+    }
+    return sets;
+  }
   [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
  private:

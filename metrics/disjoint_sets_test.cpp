@@ -20,5 +20,13 @@ TEST(DisjointSets, TheLowestNumberIsTheRoot) {
   EXPECT_EQ(sets.root(5), 0U);
 }
 
+TEST(DisjointSets, MembersAreAscendingByTheirRoots) {
+  DisjointSets sets(6);
+  sets.join(5, 1);
+  sets.join(2, 4);
+  EXPECT_EQ(sets.members(), (std::vector<std::vector<std::uint32_t>>{{0}, {1, 5}, {2, 4}, {3}}));
+  EXPECT_TRUE(DisjointSets(0).members().empty());
+}
+
 }  // namespace
 }  // namespace cbc3d::metrics

@@ -27,7 +27,7 @@ using Percentiles = std::optional<std::array<double, kPercentiles.size()>>;
 /// Reorders the values.
 Percentiles percentiles_of(std::vector<float>& values);
 
-/// The cells of one label, or all. Measures of a kind of which there is no cell are nothing.
+/// The cells of one label, or all. A measure is empty where there is no cell of its kind.
 struct ElementQuality {
   std::int64_t cells = 0;
   std::optional<double> min_dihedral_deg, max_dihedral_deg;      ///< over the tets

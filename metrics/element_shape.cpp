@@ -165,7 +165,8 @@ void find_distribution(std::size_t which, Values& values, std::array<std::size_t
   }
 }
 
-// Of each kind by itself. Its values are measured anew: meshes of several kinds are rare.
+// Finds the shape of each kind of cell. Values are measured a second time, since meshes of several kinds are
+// rare.
 void find_kinds(const MeshView& view, MeshShape& shape) {
   const Mesh& mesh = view.mesh();
   const std::array<std::size_t, 5> ends{0, mesh.tets.size(), mesh.tets.size() + mesh.pyramids.size(),

@@ -23,7 +23,7 @@ struct InnerVertices {
   }
 };
 
-/// Figures are nothing where the mesh has no cell (of ratios between neighbours: no two cells at a facet).
+/// A figure is empty where the mesh has no cell; a ratio of neighbours, where no two cells share a facet.
 struct Gradation {
   /// Larger over smaller size of two cells that share a facet, whatever their labels; infinite at a flat
   /// cell.

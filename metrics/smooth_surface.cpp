@@ -65,8 +65,8 @@ VoxelBox bounds_of(const LabelImage& image, MaterialId material) {
   return box;
 }
 
-// Smoothed indicators of the materials in reach of a voxel: few as a rule, at most one per voxel. Those that
-// collide in the table follow each other.
+// Smoothed indicators of the materials within the kernel around a voxel. There are few of them, and never
+// more than one per voxel. Materials that collide in the hash table take the next free place.
 class MaterialsInReach {
  public:
   void clear() {

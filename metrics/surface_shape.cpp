@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "metrics/disjoint_sets.hpp"
+#include "metrics/nearest_voxel.hpp"
 #include "metrics/order_statistics.hpp"
 #include "metrics/reduce.hpp"
 #include "metrics/smoothness.hpp"
@@ -301,19 +302,7 @@ SharpPlace Sheet::place_of(const SharpElement& element) const {
   return place;
 }
 
-Index3 nearest_voxel(const ImageFrame& frame, const Vec3& physical_mm) {
-  const Vec3 local = frame.to_local(physical_mm);
-  Index3 voxel{};
-  for (int axis = 0; axis < 3; ++axis) {
-    // Places far off the image need no more than to be outside.
-    const double index = local[axis] / frame.spacing_mm[axis];
-    const double last = frame.size[static_cast<std::size_t>(axis)] + 10.0;
-    voxel[static_cast<std::size_t>(axis)] = static_cast<int>(std::lround(std::clamp(index, -10.0, last)));
-  }
-  return voxel;
-}
-
-// The material of a label; nothing when the image has it not.
+// The material of a label; empty where the image does not have the label.
 std::optional<MaterialId> find_material(const LabelImage& image, Label label) {
   const auto found = std::find(image.labels.begin() + 1, image.labels.end(), label);
   return found == image.labels.end() ? std::nullopt
@@ -325,7 +314,7 @@ PlaceKind kind_in_image(const LabelImage& image, std::optional<MaterialId> mater
   if (!material) {
     return place.kind;
   }
-  const Index3 voxel = nearest_voxel(image.frame, place.at_mm);
+  const Index3 voxel = nearest_voxel(image.frame, image.frame.to_local(place.at_mm));
   return is_thin_near(image, voxel, *material, false)  ? PlaceKind::kThinLabel
          : is_thin_near(image, voxel, *material, true) ? PlaceKind::kThinOutside
                                                        : place.kind;

@@ -36,9 +36,9 @@ struct SurfaceShape {
   std::optional<double> mean_ratio_min, mean_ratio_p1, mean_ratio_median;
 };
 
-/// What the image has at a sharp place: the label, or what is not the label, at most two voxels thick
-/// (is_thin_near); else nothing in the image asks for it, and the most pointed vertex there points outwards
-/// (spike) or inwards (pit).
+/// Why a surface is sharp at a place. Where the label, or what surrounds it, is at most two voxels thick
+/// (is_thin_near), the image asks for it. Elsewhere it is a spike or a pit: the most pointed vertex points
+/// outwards or inwards.
 enum class PlaceKind : std::uint8_t { kSpike, kPit, kThinLabel, kThinOutside };
 
 /// A run of neighbouring sharp elements: edges over 120 degrees, facets off_normal, and tips, vertices all of

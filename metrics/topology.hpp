@@ -1,4 +1,4 @@
-// Does the mesh hang together, are the surfaces of its labels manifold, and has it the image's topology?
+// Whether the mesh is connected, its labels' surfaces are manifold, and its topology is the image's.
 #pragma once
 
 #include <cstdint>

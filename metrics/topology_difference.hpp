@@ -1,10 +1,10 @@
-// The topology of a mesh less that of its image, label by label, and where they differ.
+// How the topology of a mesh differs from that of its image, label by label, and where.
 //
 // An image does not say by itself what its topology is: voxels of a label that touch at an edge or a corner
-// alone hang together as a closed set and do not as an open one. Which of the two a mesh must have is decided
-// by the image alone:
-//   closed  where no voxels of the label so touch, so that closed and open set agree;
-//   open    elsewhere: voxels hang together through faces, their complement through corners too.
+// alone are connected as a closed set and are not as an open one. Which of the two a mesh must have is
+// decided by the image alone:
+//   closed  where no voxels of the label touch like that, so that closed and open set agree;
+//   open    elsewhere: voxels are connected through faces, their complement through corners too.
 #pragma once
 
 #include <cstdint>

@@ -10,6 +10,7 @@
 
 #include "metrics/disjoint_sets.hpp"
 #include "metrics/mesh_raster.hpp"
+#include "metrics/nearest_voxel.hpp"
 #include "metrics/reduce.hpp"
 #include "metrics/smoothness.hpp"
 #include "metrics/voxel_components.hpp"
@@ -18,16 +19,6 @@ namespace cbc3d::metrics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Index3 nearest_voxel(const ImageFrame& frame, const Vec3& local_mm) {
-  Index3 voxel{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double index = local_mm[axis] / frame.spacing_mm[axis];
-    const double last = frame.size[static_cast<std::size_t>(axis)] + 10.0;
-    voxel[static_cast<std::size_t>(axis)] = static_cast<int>(std::lround(std::clamp(index, -10.0, last)));
-  }
-  return voxel;
-}
 
 Vec3 physical_centre(const ImageFrame& frame, const Index3& voxel) {
   return frame.to_physical(frame.local_centre(voxel[0], voxel[1], voxel[2]));
@@ -50,7 +41,17 @@ Vec3 local_centroid(const MeshView& view, std::uint32_t cell) {
   return centre;
 }
 
-// A part of the mesh: the cells of a label that hang together through vertices.
+template <typename Value>
+std::vector<Value> values_at(const std::vector<std::uint32_t>& places, const std::vector<Value>& values) {
+  std::vector<Value> found;
+  found.reserve(places.size());
+  for (const std::uint32_t place : places) {
+    found.push_back(values[place]);
+  }
+  return found;
+}
+
+// A part of the mesh: cells of one label that are connected through vertices.
 struct MeshPart {
   std::vector<std::uint32_t> cells;
   Vec3 place_mm{};  // local: the centroid of the cell nearest to that of the part
@@ -71,14 +72,8 @@ std::vector<MeshPart> mesh_parts(const MeshView& view, const std::vector<std::ui
     }
   }
   std::vector<MeshPart> parts;
-  std::vector<std::size_t> number(cells.size());
-  for (std::uint32_t n = 0; n < cells.size(); ++n) {
-    const std::uint32_t root = sets.root(n);
-    if (root == n) {
-      number[n] = parts.size();
-      parts.emplace_back();
-    }
-    parts[number[root]].cells.push_back(cells[n]);
+  for (const std::vector<std::uint32_t>& members : sets.members()) {
+    parts.push_back({.cells = values_at(members, cells)});
   }
   return parts;
 }
@@ -272,14 +267,8 @@ class EulerWalk {
       });
     }
     std::vector<std::vector<std::size_t>> groups;
-    std::vector<std::size_t> number(voxels.size());
-    for (std::uint32_t v = 0; v < voxels.size(); ++v) {
-      const std::uint32_t root = sets.root(v);
-      if (root == v) {
-        number[v] = groups.size();
-        groups.emplace_back();
-      }
-      groups[number[root]].push_back(voxels[v]);
+    for (const std::vector<std::uint32_t>& members : sets.members()) {
+      groups.push_back(values_at(members, voxels));
     }
     return groups;
   }

@@ -138,11 +138,11 @@ nlohmann::json found_in(const nlohmann::json& options, const OptionRow& row) {
 TEST_F(MeshCommand, EveryOptionIsSetByTextAndReadBackFromTheReport) {
   write_label_image(testing::ball_image(12, 1, 4.5, 2), at("small.nii.gz"));
   for (const OptionRow& row : option_table()) {
-    const std::string& sample = testing::option_samples().at(row.name);
+    const std::string preset = row.group == OptionGroup::improvement ? "quality" : "paper";
+    const std::string sample = testing::option_sample(row, preset_options(preset, ImageFrame()));
     const std::string flag =
         " --" + row.name +
         (row.kind == OptionKind::on_off ? (sample == "true" ? "" : "=false") : " " + sample);
-    const std::string preset = row.group == OptionGroup::improvement ? "quality" : "paper";
     const Outcome outcome = run("mesh " + at("small.nii.gz") + " --quiet --preset " + preset + flag +
                                 " --out " + at("m.vtu") + " --report " + at("r.json"));
     ASSERT_EQ(outcome.exit_code, 0) << flag << ": " << outcome.text;

@@ -1,6 +1,9 @@
 #include "mesher/app/segment_command.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
 #include <memory>
 
 #include "mesher/app/subcommand.hpp"
@@ -23,16 +26,24 @@ struct SegmentCommand {
 };
 
 Vec3 position(const std::string& text, const char* option) {
-  Vec3 p;
-  char end = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &end) != 3 || !p.all_finite()) {
+  std::array<double, 3> p{};
+  const char* next = text.c_str();
+  bool is_good = true;
+  for (std::size_t axis = 0; axis < 3 && is_good; ++axis) {
+    char* end = nullptr;
+    p[axis] = std::strtod(next, &end);
+    is_good = end != next && *end == (axis < 2 ? ',' : '\0') && std::isfinite(p[axis]);
+    next = end + 1;
+  }
+  if (!is_good) {
     throw InputError(std::string(option) + " '" + text + "' is not X,Y,Z; give three numbers, mm");
   }
-  return p;
+  return {p[0], p[1], p[2]};
 }
 
 std::vector<Vec3> positions(const std::vector<std::string>& texts, const char* option) {
   std::vector<Vec3> result;
+  result.reserve(texts.size());
   for (const std::string& text : texts) {
     result.push_back(position(text, option));
   }

@@ -45,7 +45,7 @@ class BlockMatrix {
     block.c[1].store3(to + 3);
     block.c[2].store3(to + 6);
   }
-  /// Tells the inverse of the diagonal block of row v, the preconditioner.
+  /// Sets the inverse of the diagonal block of row v, for the preconditioner.
   void set_inverse_diagonal(VertexId v, const Columns3& inverse) { inverse_diagonal_[v] = inverse; }
 
   /// Row v times x; lane 3 is zero.

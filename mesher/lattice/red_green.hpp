@@ -11,14 +11,15 @@
 
 namespace cbc3d {
 
-/// Refines a lattice in rounds. The closure of a round goes in sweeps: each looks (in parallel, at a state
-/// that nobody changes) at the red tets that the last sweep can have touched, then acts in order. A new
-/// midpoint on the edge a-b concerns the tets with that edge, those of whose edges it is one half (a or b is
-/// a node of theirs), and those of whose faces it is an inner segment (all three edges of that face are
-/// split): so vertices carry the number of the sweep that last split an edge at them.
+/// Refines a lattice in rounds. The closure of a round is made in sweeps. A sweep first reads, in parallel
+/// and without changing anything, the red tets that the sweep before can have touched; then it acts in their
+/// order. A new midpoint on the edge a-b concerns the tets that have this edge, the tets that have it as half
+/// of an edge (a or b is one of their nodes), and the tets that have it as the inner segment of a face all of
+/// whose edges are split. Each vertex therefore carries the number of the sweep that last split an edge at
+/// it.
 class RedGreenRefiner {
  public:
-  /// `lattice` must outlive this and is changed by nobody else.
+  /// `lattice` must outlive this, and nothing else may change it.
   explicit RedGreenRefiner(Lattice& lattice) : lattice_(lattice), last_touched_(lattice.points.size(), 0) {}
 
   /// Splits the marked red tets 1:8 (inner diagonal: the shortest, so that the children are congruent to the

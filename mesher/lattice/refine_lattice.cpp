@@ -234,19 +234,29 @@ class Refiner {
            (interfaces_ && interfaces_->wants_refinement(j, k, i_begin, i_end));
   }
 
+  [[nodiscard]] std::size_t uncovered_count() const {
+    return (coverage_ ? coverage_->uncovered_count() : 0) +
+           (interfaces_ ? interfaces_->uncovered_count() : 0);
+  }
+
   /// Marks tets with an uncovered voxel.
   void mark_uncovered() {
-    if ((coverage_ ? coverage_->uncovered_count() : 0) + (interfaces_ ? interfaces_->uncovered_count() : 0) ==
-        0) {
+    if (!places_ || uncovered_count() == 0) {
       return;
     }
-    places_->clear();
-    const auto add = [&](const Vec3& centre) { places_->add(centre); };
-    interfaces_ ? interfaces_->for_each_wanted(add) : coverage_->for_each_wanted(add);
+    LatticePlaces& places = *places_;
+    places.clear();
+    const auto add = [&](const Vec3& centre) { places.add(centre); };
+    if (interfaces_) {
+      interfaces_->for_each_wanted(add);
+    }
+    if (coverage_) {
+      coverage_->for_each_wanted(add);
+    }
 #pragma omp parallel for schedule(dynamic, 1024)
     for (std::size_t r = 0; r < lattice_.reds.size(); ++r) {
       const RedTet& red = lattice_.reds[r];
-      if (marked_[r] == 0 && places_->may_hold(lattice_.points[red.nodes[0]], red.level)) {
+      if (marked_[r] == 0 && places.may_hold(lattice_.points[red.nodes[0]], red.level)) {
         marked_[r] = holds_uncovered(r) ? 1 : 0;
       }
     }
@@ -586,8 +596,7 @@ class Refiner {
   }
 
   void finish() {
-    result_.uncovered_voxels = coverage_ ? coverage_->uncovered_count() : 0;
-    result_.uncovered_voxels += interfaces_ ? interfaces_->uncovered_count() : 0;
+    result_.uncovered_voxels = uncovered_count();
     result_.fidelity.erase(result_.fidelity.begin());  // background
     const auto unmet = warnings_of_unmet_fidelity(result_.fidelity, options_.finest_spacing_mm);
     result_.warnings.insert(result_.warnings.end(), unmet.begin(), unmet.end());

@@ -45,7 +45,7 @@ VoxelRaster::Axis VoxelRaster::make_axis(int size, int parts, double spacing_mm,
 
 int VoxelRaster::Axis::first_at_or_after(Fixed position) const {
   const int size = static_cast<int>(centre.size());
-  // One step from the voxel at or before the position, as a rule the answer; the loops put right the rest.
+  // The guess is mostly right; the loops correct it where rounding made it wrong.
   const double guess = static_cast<double>(position - centre[0]) * inverse_step + 1;
   int i = static_cast<int>(std::min(std::max(guess, 0.0), static_cast<double>(size)));
   while (i < size && centre[static_cast<std::size_t>(i)] < position) {

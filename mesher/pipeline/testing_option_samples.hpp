@@ -1,50 +1,44 @@
-// A good value for every option, which no preset has as its default.
+// A good value for every option.
 #pragma once
 
-#include <map>
+#include <cmath>
+#include <cstdint>
 #include <string>
+
+#include "mesher/pipeline/option_table.hpp"
 
 namespace cbc3d::testing {
 
-inline const std::map<std::string, std::string>& option_samples() {
-  static const std::map<std::string, std::string> samples = {
-      {"relabel-noise", "specks"},
-      {"region-tolerance", "0.25"},
-      {"no-manifold-voxels", "true"},
-      {"seed", "7"},
-      {"lattice-spacing", "6"},
-      {"fidelity", "0.75"},
-      {"material-fidelity", "2=0.75"},
-      {"finest-spacing", "5"},
-      {"max-distance", "1.25"},
-      {"size", "2=3.5"},
-      {"elements", "12000"},
-      {"edge-length", "1.5"},
-      {"topology-checks", "true"},
-      {"mixed", "true"},
-      {"no-improve", "true"},
-      {"decimation-rounds", "2"},
-      {"deviation", "0.5"},
-      {"smoothness", "0.25"},
-      {"smoothness-cap", "0.125"},
-      {"gradation", "2"},
-      {"iterations", "2"},
-      {"connectivity", "edge"},
-      {"target-position", "voxel-faces"},
-      {"displacement", "full"},
-      {"keep-outliers", "true"},
-      {"reach", "2"},
-      {"pair-distance", "0.75"},
-      {"attempts", "1"},
-      {"on-failure", "stop"},
-      {"young-pa", "3000"},
-      {"poisson", "0.25"},
-      {"material-young", "2=6900"},
-      {"material-poisson", "2=0.375"},
-      {"min-dihedral", "10"},
-      {"min-scaled-jacobian", "0.25"},
-  };
-  return samples;
+/// A value of the range. With those tried first a small image can be meshed; 5 mm is half of the coarsest
+/// lattice spacing of voxels of 1 mm, to which finest-spacing is rounded.
+inline double number_within(const NumberRange& range, double other_than) {
+  for (const double number : {5.0, 0.25, 0.75}) {
+    if (range.contains(number) && number != other_than) return number;
+  }
+  return std::isinf(range.highest) ? 2 * range.lowest + 1 : (range.lowest + range.highest) / 2;
+}
+
+inline std::int64_t count_within(const NumberRange& range, std::int64_t other_than) {
+  constexpr std::int64_t kMany = 12000, kFew = 6;
+  return range.contains(kMany) && kMany != other_than ? kMany : kFew != other_than ? kFew : kFew + 1;
+}
+
+/// A text that the option takes and that stands for another value than the one in `preset`.
+inline std::string option_sample(const OptionRow& row, const MeshImageOptions& preset) {
+  const OptionValue value = row.get(preset);
+  switch (row.kind) {
+    case OptionKind::number:
+      return value_text(number_within(row.range, std::get<double>(value)));
+    case OptionKind::count:
+      return value_text(count_within(row.range, std::get<std::int64_t>(value)));
+    case OptionKind::on_off:
+      return value_text(!std::get<bool>(value));
+    case OptionKind::choice:
+      return row.choices[row.choices[0] == std::get<std::string>(value) ? 1 : 0];
+    case OptionKind::label_numbers:
+      break;
+  }
+  return value_text(LabelNumbers{{2, number_within(row.range, NAN)}});
 }
 
 }  // namespace cbc3d::testing

@@ -3,15 +3,14 @@
 //
 // A label image is well-composed when every label's boundary, background's too, is a manifold (Latecki,
 // Eckhardt, Rosenfeld: Well-composed sets, Computer Vision and Image Understanding 61, 1995). Then voxels
-// that hang together through corners hang together through faces, open and closed sets have the same
+// that are connected through corners are connected through faces, open and closed sets have the same
 // components, tunnels and cavities, and a mesh has one topology to keep. The paper's clean-up
 // (voxel_contacts.hpp) takes the contacts of labels one by one and leaves those of their complements.
 //
 // Notation: contact  a 2x2 square of voxels with one label at the ends of a diagonal and not at the others;
-// or a
-//                    2x2x2 cell with one label at the ends of a space diagonal and at none of the others, or
-//                    at all of the others and at neither end;
-//           join     background voxels become the label's, so that its parts hang together;
+//                    or a 2x2x2 cell with one label at the ends of a space diagonal and at none of the
+//                    others, or at all of the others and at neither end;
+//           join     background voxels become the label's, so that its parts are connected;
 //           cut      voxels of a label become background's.
 #pragma once
 

@@ -11,8 +11,8 @@ struct OrientReport {
   std::size_t not_positive = 0;  ///< tets that lie inside out among their neighbours, or flat
 };
 
-/// Leaves out tets with a repeated vertex and gives all tets that hang together by faces one orientation, the
-/// one in which their volumes add up to more than nothing. What is not positive then is tangled, not
+/// Leaves out tets with a repeated vertex and gives all tets that are connected through faces one
+/// orientation, the one with a positive sum of volumes. A tet that is not positive then is tangled, not
 /// misnumbered. Throws InputError where a face belongs to more than two tets.
 OrientReport orient_tets(MaterialMesh& mesh);
 

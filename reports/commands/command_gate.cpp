@@ -79,8 +79,8 @@ Command add_gate_command(CLI::App& app) {
       ->check([](const std::string& text) {
         return text.find_first_not_of(" \t") == std::string::npos ? "give a reason" : std::string();
       });
-  add_idle_threads_option(parser, options->threads, "comparing needs");
-  parser->add_flag("--quiet", options->quiet, "print nothing when the gate holds");
+  add_idle_options(parser, options->threads, "comparing needs", options->quiet,
+                   "print nothing when the gate holds");
   return {parser, [options] { return gate(*options); }};
 }
 

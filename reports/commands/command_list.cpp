@@ -99,10 +99,9 @@ Command add_list_command(CLI::App& app) {
       ->add_option("--external", options->externals,
                    "JSON file of a mesher from outside (may be given again)")
       ->allow_extra_args(false);
-  parser->add_option("--manifests", options->manifests,
-                     "folder of case manifests, *.json; default: the installed ones");
-  add_idle_threads_option(parser, options->threads, "listing needs");
-  parser->add_flag("--quiet", options->quiet, "no progress (listing shows none)");
+  add_manifests_option(parser, options->manifests);
+  add_idle_options(parser, options->threads, "listing needs", options->quiet,
+                   "no progress (listing shows none)");
   return {parser, [options] {
             if (options->what == "meshers") {
               list_meshers(*options);

@@ -35,8 +35,7 @@ Command add_merge_command(CLI::App& app) {
       "and `report` work on that");
   parser->add_option("DIR", options->folders, "folders of runs")->required();
   parser->add_option("--out", options->out, "folder to make")->required();
-  add_idle_threads_option(parser, options->threads, "merging needs");
-  parser->add_flag("--quiet", options->quiet, "no summary on the screen");
+  add_idle_options(parser, options->threads, "merging needs", options->quiet, "no summary on the screen");
   return {parser, [options] { return merge(*options); }};
 }
 

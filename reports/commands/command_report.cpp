@@ -60,11 +60,9 @@ Command add_report_command(CLI::App& app) {
   parser->add_option("--title", options->title, "title of the report");
   parser->add_option("--microbenchmarks", options->microbenchmarks,
                      "Google Benchmark's JSON files to put in");
-  parser->add_option("--manifests", options->manifests,
-                     "folder of case manifests, *.json; default: the installed ones");
+  add_manifests_option(parser, options->manifests);
   parser->add_flag("!--no-pictures", options->pictures, "do not draw pictures that are missing");
-  add_idle_threads_option(parser, options->threads, "writing needs");
-  parser->add_flag("--quiet", options->quiet, "no progress");
+  add_idle_options(parser, options->threads, "writing needs", options->quiet, "no progress");
   return {parser, [options] { return write_report(*options); }};
 }
 

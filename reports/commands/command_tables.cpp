@@ -36,8 +36,8 @@ Command add_tables_command(CLI::App& app) {
       ->delimiter(',')
       ->capture_default_str();
   parser->add_flag("!--no-pictures", options->output.pictures, "draw no cut sections and surfaces");
-  add_idle_threads_option(parser, options->threads, "tables need");
-  parser->add_flag("--quiet", options->output.quiet, "no progress and no tables on the screen");
+  add_idle_options(parser, options->threads, "tables need", options->output.quiet,
+                   "no progress and no tables on the screen");
   return {parser, [options] { return write_again(*options); }};
 }
 

@@ -14,9 +14,14 @@ struct Command {
   std::function<int()> run;
 };
 
-/// Adds the --threads of a command that is done by one thread, `work` ("merging needs").
-inline void add_idle_threads_option(CLI::App* parser, int& threads, const std::string& work) {
+/// Adds the --threads and --quiet of a command that is done by one thread, `work` ("merging needs").
+inline void add_idle_options(CLI::App* parser, int& threads, const std::string& work, bool& quiet,
+                             const std::string& quiet_text) {
   parser->add_option("--threads", threads, "threads (" + work + " one)")->capture_default_str();
+  parser->add_flag("--quiet", quiet, quiet_text);
+}
+inline void add_manifests_option(CLI::App* parser, std::string& folder) {
+  parser->add_option("--manifests", folder, "folder of case manifests, *.json; default: the installed ones");
 }
 /// Adds the --threads of a command that is done by several.
 inline void add_threads_option(CLI::App* parser, int& threads) {

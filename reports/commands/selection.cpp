@@ -6,6 +6,7 @@
 #include "baselines/external.hpp"
 #include "baselines/registry.hpp"
 #include "mesher/core/error.hpp"
+#include "reports/commands/commands.hpp"
 #include "reports/run/solve.hpp"
 #include "reports/run/workplace.hpp"
 
@@ -131,8 +132,7 @@ void add_selection_options(CLI::App* parser, Selection& selection) {
       ->add_option("--set", selection.settings,
                    "MESHER.KEY=VALUE: a parameter of a mesher (may be given again)")
       ->allow_extra_args(false);
-  parser->add_option("--manifests", selection.manifests,
-                     "folder of case manifests, *.json; default: the installed ones");
+  add_manifests_option(parser, selection.manifests);
 }
 
 void add_limit_options(CLI::App* parser, RunOptions& run, double& memory_limit_gib) {

@@ -44,27 +44,30 @@ FigureOf magnitude_of(MetricId id) {
   };
 }
 
-FrontComparison compared(const std::string& case_name, std::int64_t budget, MetricId id,
-                         const std::vector<FrontCurve>& curves) {
-  FrontComparison row{.case_name = case_name, .budget = budget, .id = id, .values = {}, .best = {}};
+/// None: no column has the figure.
+std::optional<FrontComparison> compared(const std::string& case_name, std::int64_t budget, MetricId id,
+                                        const std::vector<FrontCurve>& curves) {
+  FrontComparison row{.case_name = case_name, .budget = budget, .id = id, .values = {}};
   const Worse worse = metrics::metric(id).worse;
+  bool has_best = false, has_rival = false;
   for (const FrontCurve& curve : curves) {
-    row.values.push_back(curve.at(static_cast<double>(budget)));
-    if (row.values.back() &&
-        (!row.best || times_worse(*row.values[*row.best], *row.values.back(), worse) > 1)) {
+    const auto value = curve.at(static_cast<double>(budget));
+    row.values.push_back(value);
+    if (value && (!has_best || times_worse(row.best_value, *value, worse) > 1)) {
       row.best = row.values.size() - 1;
+      row.best_value = *value;
+      has_best = true;
     }
   }
   double lead = std::numeric_limits<double>::infinity();
-  bool has_rival = false;
   for (std::size_t column = 0; column < row.values.size(); ++column) {
-    if (row.values[column] && column != row.best) {
-      lead = std::min(lead, times_worse(*row.values[column], *row.values[*row.best], worse));
+    if (const auto& value = row.values[column]; value && column != row.best) {
+      lead = std::min(lead, times_worse(*value, row.best_value, worse));
       has_rival = true;
     }
   }
   row.lead = has_rival ? lead : 1;
-  return row;
+  return has_best ? std::optional(row) : std::nullopt;
 }
 
 }  // namespace
@@ -144,9 +147,8 @@ std::vector<FrontComparison> front_comparisons(const std::vector<JobResult>& res
         curves.push_back(front_curve(results, columns, case_name, column, id));
       }
       for (const std::int64_t budget : budgets_of(results, case_name)) {
-        FrontComparison row = compared(case_name, budget, id, curves);
-        if (row.best) {
-          of_case.push_back(std::move(row));
+        if (auto row = compared(case_name, budget, id, curves)) {
+          of_case.push_back(std::move(*row));
         }
       }
     }

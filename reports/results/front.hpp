@@ -54,8 +54,9 @@ struct FrontComparison {
   std::int64_t budget = 0;
   metrics::MetricId id{};
   std::vector<std::optional<double>> values;  ///< of the columns
-  std::optional<std::size_t> best;            ///< column; none: no column has the figure
-  double lead = 1;                            ///< by which factor the second best is worse
+  std::size_t best = 0;                       ///< column with the best value
+  double best_value = 0;
+  double lead = 1;  ///< by which factor the second best is worse
 };
 
 /// All comparisons of a run, by case, budget and figure; figures that no column has are left out.

@@ -15,7 +15,7 @@ constexpr double kLongestStep = 8;
 constexpr double kFlatStep = 1.9;
 
 double miss(const DialTry& one, double budget) {
-  return std::abs(std::log(*one.elements / budget));
+  return std::abs(std::log(one.elements / budget));
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ const DialTry* DialSearch::best() const {
   const DialTry* nearest = nullptr;
   for (const DialTry& one : tries_) {
     const bool is_nearer =
-        one.elements && (nearest == nullptr || miss(one, budget_) < miss(*nearest, budget_));
+        one.has_mesh() && (nearest == nullptr || miss(one, budget_) < miss(*nearest, budget_));
     if (is_nearer) {
       nearest = &one;
     }
@@ -41,7 +41,7 @@ const DialTry* DialSearch::best() const {
 
 bool DialSearch::is_met() const {
   const DialTry* nearest = best();
-  return nearest != nullptr && std::abs(*nearest->elements - budget_) <= kBudgetTolerance * budget_;
+  return nearest != nullptr && std::abs(nearest->elements - budget_) <= kBudgetTolerance * budget_;
 }
 
 std::optional<double> DialSearch::next() const {
@@ -63,7 +63,7 @@ std::optional<double> DialSearch::next() const {
 std::vector<const DialTry*> DialSearch::good_by_value() const {
   std::vector<const DialTry*> good;
   for (const DialTry& one : tries_) {
-    if (one.elements) {
+    if (one.has_mesh()) {
       good.push_back(&one);
     }
   }
@@ -78,11 +78,10 @@ std::optional<DialSearch::Bracket> DialSearch::bracket() const {
   std::optional<Bracket> best;
   double least_miss = 0;
   for (std::size_t n = 1; n < good.size(); ++n) {
-    const auto [finer, coarser] = *good[n - 1]->elements > *good[n]->elements
-                                      ? std::pair(good[n - 1], good[n])
-                                      : std::pair(good[n], good[n - 1]);
+    const auto [finer, coarser] = good[n - 1]->elements > good[n]->elements ? std::pair(good[n - 1], good[n])
+                                                                            : std::pair(good[n], good[n - 1]);
     const double both = miss(*finer, budget_) + miss(*coarser, budget_);
-    if (*finer->elements > budget_ && *coarser->elements < budget_ && (!best || both < least_miss)) {
+    if (finer->elements > budget_ && coarser->elements < budget_ && (!best || both < least_miss)) {
       best = Bracket{finer, coarser};
       least_miss = both;
     }
@@ -94,20 +93,20 @@ std::optional<DialSearch::Bracket> DialSearch::bracket() const {
 double DialSearch::within(const Bracket& around) const {
   constexpr double kNearest = 0.15;
   const double from = std::log(around.finer->value), to = std::log(around.coarser->value);
-  const double all = std::log(*around.finer->elements / *around.coarser->elements);
-  const double share = std::log(*around.finer->elements / budget_) / all;
+  const double all = std::log(around.finer->elements / around.coarser->elements);
+  const double share = std::log(around.finer->elements / budget_) / all;
   return std::exp(from + std::clamp(share, kNearest, 1 - kNearest) * (to - from));
 }
 
 double DialSearch::beyond(const DialTry& nearest) const {
-  const double factor = std::pow(budget_ / *nearest.elements, 1 / measured_exponent());
+  const double factor = std::pow(budget_ / nearest.elements, 1 / measured_exponent());
   double value = nearest.value * std::clamp(factor, 1 / kLongestStep, kLongestStep);
   // A try without a mesh on the way is a wall: the search goes half of the way to it. Values are rounded, so
   // that one at the wall may seem to lie before it.
   constexpr double kRounding = 1e-3;
   for (const DialTry& one : tries_) {
     const double behind = std::log(value / one.value), before = std::log(nearest.value / one.value);
-    if (!one.elements && behind * (before > 0 ? 1 : -1) < kRounding) {
+    if (!one.has_mesh() && behind * (before > 0 ? 1 : -1) < kRounding) {
       value = std::sqrt(nearest.value * one.value);
     }
   }
@@ -133,7 +132,7 @@ double DialSearch::measured_exponent() const {
     return dial_.exponent;
   }
   const double measured =
-      std::log(*good[0]->elements / *good[1]->elements) / std::log(good[0]->value / good[1]->value);
+      std::log(good[0]->elements / good[1]->elements) / std::log(good[0]->value / good[1]->value);
   const double ratio = measured / dial_.exponent;
   constexpr double kFlattest = 0.25, kSteepest = 3;
   return dial_.exponent * (ratio > 0 ? std::clamp(ratio, kFlattest, kSteepest) : kFlattest);
@@ -145,12 +144,12 @@ bool DialSearch::is_flat() const {
   if (good.size() < 2) {
     return false;
   }
-  const bool too_many = *best()->elements > budget_;
+  const bool too_many = best()->elements > budget_;
   const bool at_high_end = too_many == (dial_.exponent < 0);
   const DialTry& last = at_high_end ? *good.back() : *good.front();
   return std::any_of(good.begin(), good.end(), [&](const DialTry* one) {
     const double step = std::abs(std::log(one->value / last.value));
-    const double change = std::abs(std::log(*one->elements / *last.elements));
+    const double change = std::abs(std::log(one->elements / last.elements));
     return step > std::log(kFlatStep) && change < kBudgetTolerance * step;
   });
 }
@@ -172,15 +171,15 @@ std::string DialSearch::reason() const {
     return tries_.empty() ? "nothing was tried" : tries_.back().failure;
   }
   const auto at = [&](const DialTry& one) {
-    return format_number(*one.elements, 0) + " elements at " + dial_.parameter + "=" +
+    return format_number(one.elements, 0) + " elements at " + dial_.parameter + "=" +
            dial_text(dial_, one.value);
   };
   if (const auto around = bracket()) {
     return "the number jumps from " + at(*around->coarser) + " to " + at(*around->finer);
   }
-  const bool too_many = *nearest->elements > budget_;
+  const bool too_many = nearest->elements > budget_;
   const auto failed =
-      std::find_if(tries_.begin(), tries_.end(), [](const DialTry& one) { return !one.elements; });
+      std::find_if(tries_.begin(), tries_.end(), [](const DialTry& one) { return !one.has_mesh(); });
   return std::string(too_many ? "no fewer than " : "no more than ") + at(*nearest) +
          (failed == tries_.end()
               ? ""

@@ -12,8 +12,10 @@ namespace cbc3d::reports {
 /// A run of the mesher with the dial at a value.
 struct DialTry {
   double value = 0;
-  std::optional<double> elements;  ///< of the mesh, at least 1; none: there was none
-  std::string failure;             ///< why there was none
+  double elements = 0;  ///< of the mesh; 0: there was none
+  std::string failure;  ///< why there was none
+
+  [[nodiscard]] bool has_mesh() const { return elements > 0; }
 };
 
 /// By how much the number of elements may miss the budget, as a share of it.

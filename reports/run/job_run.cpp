@@ -290,8 +290,8 @@ class Children {
 
 constexpr const char* kElementKinds[] = {"tets", "pyramids", "wedges", "hexes"};
 
-/// Elements of the mesh of a job: by its mesher's report, else by its file. None where there are none.
-std::optional<double> count_elements(const Json& result, const fs::path& mesh_file) {
+/// Elements of the mesh of a job: by its mesher's report, else by its file. 0 where there are none.
+double count_elements(const Json& result, const fs::path& mesh_file) {
   double elements = 0;
   for (const char* kind : kElementKinds) {
     const Json count = figure(result, {"counts", kind});
@@ -302,7 +302,7 @@ std::optional<double> count_elements(const Json& result, const fs::path& mesh_fi
     elements =
         static_cast<double>(mesh.tets.size() + mesh.pyramids.size() + mesh.wedges.size() + mesh.hexes.size());
   }
-  return elements > 0 ? std::optional(elements) : std::nullopt;
+  return elements;
 }
 
 /// The command of a job with names in the place of its files.
@@ -320,8 +320,8 @@ std::string common_key(const Job& job, const fs::path& bin_dir) {
 Json to_json(const std::vector<DialTry>& tries) {
   Json list = Json::array();
   for (const DialTry& one : tries) {
-    list.push_back({{"value", one.value}, {"elements", one.elements ? Json(*one.elements) : Json()}});
-    if (!one.elements) {
+    list.push_back({{"value", one.value}, {"elements", one.has_mesh() ? Json(one.elements) : Json()}});
+    if (!one.has_mesh()) {
       list.back()["failure"] = one.failure;
     }
   }
@@ -331,12 +331,13 @@ Json to_json(const std::vector<DialTry>& tries) {
 /// The meshes of a search: each try is a whole job of the mesher, and the one nearest to the budget stays.
 class SizeSearch {
  public:
-  SizeSearch(const Job& job, baselines::SizeDial dial, const fs::path& bin_dir, std::vector<DialTry> known)
+  SizeSearch(const Job& job, double budget, baselines::SizeDial dial, const fs::path& bin_dir,
+             std::vector<DialTry> known)
       : job_(job),
         dial_(std::move(dial)),
         bin_dir_(bin_dir),
         known_count_(known.size()),
-        search_(dial_, static_cast<double>(*job.budget), std::move(known)) {}
+        search_(dial_, budget, std::move(known)) {}
 
   /// The line of the job whose mesh stays in the place of `files`, with the record of the search; without a
   /// mesh that of the last try.
@@ -370,14 +371,14 @@ class SizeSearch {
     line["parameters"] = parameters;
     line["provenance"]["command"] = nameless_command(job_, bin_dir_, parameters);
     files.remove_all();
-    DialTry one{value, {}, ""};
+    DialTry one{.value = value, .elements = 0, .failure = ""};
     if (children.mesh(image, parameters, line)) {
       one.elements = count_elements(line, files.mesh);
     }
-    one.failure = one.elements ? "" : line["status"].is_null() ? "no element" : text_at(line, "reason");
+    one.failure = one.has_mesh() ? "" : line["status"].is_null() ? "no element" : text_at(line, "reason");
     search_.add(one);
     const DialTry* best = search_.best();
-    if (one.elements && (best->value == value || !kept_value_)) {
+    if (one.has_mesh() && (best->value == value || !kept_value_)) {
       fs::rename(files.mesh, kept_file(files));
       kept_value_ = value;
       kept_ = line;
@@ -473,7 +474,7 @@ void JobRunner::learn(const Json& result) {
   }
 }
 
-bool JobRunner::mesh_to_budget(const Job& job, const fs::path& image, Json& result) {
+bool JobRunner::mesh_to_budget(const Job& job, std::int64_t budget, const fs::path& image, Json& result) {
   const auto dial = baselines::size_dial_of(*job.mesher, bench_.bin_dir);
   if (!dial) {
     set_status(result, "skipped", "the mesher names no size dial, so no budget can be met");
@@ -482,7 +483,7 @@ bool JobRunner::mesh_to_budget(const Job& job, const fs::path& image, Json& resu
   const JobFiles files(options_.out_dir, file_stem(result), job.mesher->mesh_extension);
   const Children children(bench_, options_, job, files);
   const std::string key = common_key(job, bench_.bin_dir);
-  SizeSearch search(job, *dial, bench_.bin_dir, tries_[key]);
+  SizeSearch search(job, static_cast<double>(budget), *dial, bench_.bin_dir, tries_[key]);
   result = search.run(children, files, image, result);
   result["size_search"]["common_sha256"] = key;
   learn(result);
@@ -495,8 +496,8 @@ void JobRunner::run_children(const Job& job, const fs::path& image, Json& result
   files.remove_all();
   const Children children(bench_, options_, job, files);
   const double reference_before_s = reference_cpu_seconds(job.threads);
-  const bool meshed =
-      job.budget ? mesh_to_budget(job, image, result) : children.mesh(image, job.parameters, result);
+  const bool meshed = job.budget ? mesh_to_budget(job, *job.budget, image, result)
+                                 : children.mesh(image, job.parameters, result);
   result["time_s"]["reference_cpu"] = std::min(reference_before_s, reference_cpu_seconds(job.threads));
   if (!meshed) {
     return;

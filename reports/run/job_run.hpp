@@ -28,7 +28,7 @@ class JobRunner {
 
  private:
   void run_children(const Job& job, const std::filesystem::path& image, Json& result);
-  bool mesh_to_budget(const Job& job, const std::filesystem::path& image, Json& result);
+  bool mesh_to_budget(const Job& job, std::int64_t budget, const std::filesystem::path& image, Json& result);
 
   const Bench& bench_;
   const RunOptions& options_;

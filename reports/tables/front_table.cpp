@@ -51,9 +51,13 @@ std::optional<std::size_t> our_column(const std::vector<JobResult>& results, con
 
 /// By which factor a column is worse than the best; infinite without a figure.
 double loss_of(const FrontComparison& row, std::size_t column) {
-  return row.values[column]
-             ? times_worse(*row.values[column], *row.values[*row.best], metrics::metric(row.id).worse)
-             : std::numeric_limits<double>::infinity();
+  const auto& value = row.values[column];
+  return value ? times_worse(*value, row.best_value, metrics::metric(row.id).worse)
+               : std::numeric_limits<double>::infinity();
+}
+
+Cell loss_cell(const FrontComparison& row, std::size_t column) {
+  return row.values[column] ? factor_cell(loss_of(row, column)) : text_cell("no such mesh");
 }
 
 class FrontRows {
@@ -89,19 +93,12 @@ class FrontRows {
         row.cells.back().reason = reason_of(columns_.runs(row.case_name, columns_.names()[column]));
       }
     }
-    row.cells.push_back(text_cell(columns_.names()[*compared.best]));
+    row.cells.push_back(text_cell(columns_.names()[compared.best]));
     row.cells.push_back(factor_cell(compared.lead));
     if (ours_) {
-      row.cells.push_back(loss_cell(compared));
+      row.cells.push_back(loss_cell(compared, *ours_));
     }
     return row;
-  }
-
-  [[nodiscard]] Cell loss_cell(const FrontComparison& compared) const {
-    if (!compared.values[*ours_]) {
-      return text_cell("no such mesh");
-    }
-    return factor_cell(loss_of(compared, *ours_));
   }
 
  private:
@@ -110,14 +107,14 @@ class FrontRows {
   std::optional<std::size_t> ours_;
 };
 
-Row loss_row(const FrontRows& front, const FrontComparison& compared) {
+Row loss_row(const FrontRows& front, std::size_t ours, const FrontComparison& compared) {
   const metrics::Metric& metric = metrics::metric(compared.id);
   const Row row = front.figure_row(compared);
-  const std::string& best = front.columns().names()[*compared.best];
+  const std::string& best = front.columns().names()[compared.best];
   return {row.case_name,
           row.figure,
           metric.decimals,
-          {row.cells[*front.ours()], row.cells[*compared.best], text_cell(best), front.loss_cell(compared)}};
+          {row.cells[ours], row.cells[compared.best], text_cell(best), loss_cell(compared, ours)}};
 }
 
 }  // namespace
@@ -149,19 +146,20 @@ Table front_loss_table(const TableInput& input) {
   Table table{.name = "front_losses",
               .title = "Where cbc3d loses at equal elements, the worst first",
               .columns = {"cbc3d", "best", "best mesher", "cbc3d over best"}};
-  if (!front.ours()) {
+  const auto ours = front.ours();
+  if (!ours) {
     return table;
   }
   std::vector<std::pair<double, const FrontComparison*>> losses;
   for (const FrontComparison& compared : front.rows()) {
-    if (const double loss = loss_of(compared, *front.ours()); loss >= kLeastLoss) {
+    if (const double loss = loss_of(compared, *ours); loss >= kLeastLoss) {
       losses.emplace_back(loss, &compared);
     }
   }
   std::stable_sort(losses.begin(), losses.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [loss, compared] : losses) {
-    table.rows.push_back(loss_row(front, *compared));
+    table.rows.push_back(loss_row(front, *ours, *compared));
   }
   return table;
 }
