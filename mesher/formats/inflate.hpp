@@ -12,8 +12,4 @@ namespace cbc3d {
 /// is not one, is damaged or has another size; what `out` holds then means nothing.
 [[nodiscard]] bool inflate_gzip(std::span<const std::uint8_t> file, std::span<std::uint8_t> out);
 
-/// Decompresses the first `out.size()` bytes of a gzip file. False when it has fewer, or is
-/// damaged before their end.
-[[nodiscard]] bool inflate_gzip_begin(std::span<const std::uint8_t> file, std::span<std::uint8_t> out);
-
 }  // namespace cbc3d

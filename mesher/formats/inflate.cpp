@@ -1,7 +1,6 @@
-#include "mesher/core/inflate.hpp"
+#include "mesher/formats/inflate.hpp"
 
 #include <libdeflate.h>
-#include <zlib.h>
 
 #include <memory>
 
@@ -24,21 +23,6 @@ bool inflate_gzip(std::span<const std::uint8_t> file, std::span<std::uint8_t> ou
     out = out.subspan(written);
   }
   return out.empty();
-}
-
-bool inflate_gzip_begin(std::span<const std::uint8_t> file, std::span<std::uint8_t> out) {
-  constexpr int kGzip = 16;  // zlib expects gzip's header when this is added to the window's bits
-  z_stream stream{};
-  if (inflateInit2(&stream, MAX_WBITS + kGzip) != Z_OK) {
-    return false;
-  }
-  stream.next_in = const_cast<Bytef*>(file.data());
-  stream.avail_in = static_cast<uInt>(file.size());
-  stream.next_out = out.data();
-  stream.avail_out = static_cast<uInt>(out.size());
-  inflate(&stream, Z_SYNC_FLUSH);
-  inflateEnd(&stream);
-  return stream.avail_out == 0;
 }
 
 }  // namespace cbc3d
