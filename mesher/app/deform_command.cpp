@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "mesher/app/image_input.hpp"
-#include "mesher/app/mesh_placement.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/option_json.hpp"
@@ -12,6 +11,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/pipeline/presets.hpp"
@@ -62,15 +62,14 @@ MaterialMesh read_material_mesh(DeformCommand& command, const LabelImage& image)
   Mesh mesh = read_mesh(command.mesh);
   require_writable_labels(labels_of(mesh), command.out);
   try {
-    MaterialMesh local = to_material_mesh(std::move(mesh), image);
-    const Placement placement = placement_of(local, image);
+    const Placement placement = placement_of(mesh, image);
     if (placement.elsewhere) {
       throw InputError(placement.finding);
     }
     if (!placement.finding.empty()) {
       command.input.warnings.push_back(placement.finding);
     }
-    return local;
+    return to_material_mesh(std::move(mesh), image);
   } catch (const InputError& error) {
     throw InputError("'" + command.mesh + "': " + error.what());
   }

@@ -16,9 +16,10 @@ void add_image_options(CLI::App& command, ImageInput& input) {
                 "take values within 1e-4 of an integer as that integer, of images of floats")
       ->group(kGroup);
   command
-      .add_flag("--many-labels", input.many_labels,
-                "take an image that looks grey: more than 30 labels, and 5 % of the voxels without a neighbour of "
-                "their label or half of the neighbours unlike")
+      .add_flag(
+          "--many-labels", input.many_labels,
+          "take an image that looks grey: more than 30 labels, and 5 % of the voxels without a neighbour of "
+          "their label or half of the neighbours unlike")
       ->group(kGroup);
 }
 
@@ -26,7 +27,8 @@ LabelImage read_input_image(const std::string& path, ImageInput& input) {
   LabelImage image = read_label_image(path, input.read, &input.warnings);
   const std::string reason = input.many_labels ? "" : why_grey(image);
   if (!reason.empty()) {
-    throw InputError("'" + path + "': " + reason + "; segment it first (cbc3d segment), or many_labels takes it");
+    throw InputError("'" + path + "': " + reason +
+                     "; segment it first (cbc3d segment), or many_labels takes it");
   }
   return image;
 }

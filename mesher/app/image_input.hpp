@@ -22,8 +22,8 @@ struct ImageInput {
 /// Adds --accept-shear, --round and --many-labels.
 void add_image_options(CLI::App& command, ImageInput& input);
 
-/// Reads the label image; what was taken for granted is added to the input's warnings. Throws InputError, also
-/// for an image that looks grey, unless many labels are meant.
+/// Reads the label image; what was taken for granted is added to the input's warnings. Throws InputError,
+/// also for an image that looks grey, unless many labels are meant.
 LabelImage read_input_image(const std::string& path, ImageInput& input);
 
 }  // namespace cbc3d

@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "mesher/app/image_input.hpp"
-#include "mesher/app/mesh_placement.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/domain/image_domain.hpp"
@@ -56,8 +56,8 @@ std::string text_of(const char* format, double a, double b) {
 }
 
 /// A mesh that lies elsewhere would be fitted to boundaries that are not its own.
-void require_placement(Subject& subject) {
-  const Placement placement = placement_of(subject.mesh, subject.image);
+void require_placement(const Mesh& mesh, Subject& subject) {
+  const Placement placement = placement_of(mesh, subject.image);
   if (placement.elsewhere) {
     throw InputError(placement.finding);
   }
@@ -79,8 +79,8 @@ Subject read(ImproveCommand& command) {
     if (command.image.empty()) {
       subject.mesh = number_labels(std::move(mesh), subject.image.labels);
     } else {
+      require_placement(mesh, subject);
       subject.mesh = to_material_mesh(std::move(mesh), subject.image);
-      require_placement(subject);
     }
     subject.orient = orient_tets(subject.mesh);
     if (subject.mesh.tets.empty()) {

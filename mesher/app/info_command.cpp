@@ -39,7 +39,8 @@ nlohmann::json info_json(const InfoCommand& command, const LabelImage& image) {
           {"spacing_mm", triple(frame.spacing_mm)},
           {"origin_mm", triple(frame.origin_mm)},
           {"axes",
-           {triple(frame.direction.column(0)), triple(frame.direction.column(1)), triple(frame.direction.column(2))}},
+           {triple(frame.direction.column(0)), triple(frame.direction.column(1)),
+            triple(frame.direction.column(2))}},
           {"labels", labels},
           {"looks_grey", why_grey(image)},
           {"warnings", command.input.warnings}};
@@ -50,7 +51,8 @@ void print(const nlohmann::json& info) {
             << " voxels\nspacing  " << info["spacing_mm"] << " mm\norigin   " << info["origin_mm"]
             << " mm, LPS\naxes     " << info["axes"] << ", LPS\nlabels   " << info["labels"].size() << '\n';
   for (const auto& label : info["labels"]) {
-    std::cout << "  " << label["label"] << ": " << label["voxels"] << " voxels, " << label["volume_mm3"] << " mm3\n";
+    std::cout << "  " << label["label"] << ": " << label["voxels"] << " voxels, " << label["volume_mm3"]
+              << " mm3\n";
   }
   for (const auto& warning : info["warnings"]) {
     std::cout << "warning: " << warning.get<std::string>() << '\n';

@@ -7,6 +7,7 @@
 
 #include "mesher/app/flag_names.hpp"
 #include "mesher/app/image_input.hpp"
+#include "mesher/app/mesh_findings.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/option_json.hpp"
@@ -62,7 +63,11 @@ void run(MeshCommand& command) {
                              .reading_seconds = reading.seconds()};
   MeshImageReport report;
   const Mesh mesh = mesh_image(std::move(image), description.options, progress, report);
-  report.warnings.insert(report.warnings.begin(), command.input.warnings.begin(), command.input.warnings.end());
+  report.warnings.insert(report.warnings.begin(), command.input.warnings.begin(),
+                         command.input.warnings.end());
+  for (std::string& finding : mesh_findings(mesh, report, description.frame)) {
+    report.warnings.push_back(std::move(finding));
+  }
   for (std::string& warning : report.warnings) {
     warning = with_flags(warning);
   }

@@ -26,8 +26,8 @@ class ChildOutput {
   int pipe_;
 };
 
-/// A copy of this process (fork) that does `work`, which must not use OpenMP, and sends what it finds. Its standard
-/// error is closed. Throws JobError where the system gives no process.
+/// A copy of this process (fork) that does `work`, which must not use OpenMP, and sends what it finds. Its
+/// standard error is closed. Throws JobError where the system gives no process.
 class ChildProcess {
  public:
   ChildProcess(const ChildLimits& limits, const std::function<void(const ChildOutput&)>& work);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
@@ -31,7 +32,7 @@ TEST(ChildProcess, ItsEndIsToldAndNothingElseEnds) {
   ChildProcess exception(kLimits, [](const ChildOutput&) { throw std::runtime_error("no"); });
   EXPECT_EQ(exception.wait(), "an exception");
   ChildProcess endless({.memory_bytes = kLimits.memory_bytes, .cpu_seconds = 1}, [](const ChildOutput&) {
-    for (volatile unsigned n = 0;; n = n + 1) {
+    for (std::atomic<unsigned> n = 0;; ++n) {
     }
   });
   EXPECT_EQ(endless.wait(), "it takes too long");

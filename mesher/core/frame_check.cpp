@@ -73,8 +73,8 @@ double straighten(ImageFrame& frame) {
       sheared.column(0).normalized(), sheared.column(1).normalized(), sheared.column(2).normalized()));
   frame.origin_mm -= frame.direction * half;
   double moved_mm = 0;
-  for (const Vec3& corner : {half, Vec3{-half.x, half.y, half.z}, Vec3{half.x, -half.y, half.z},
-                             Vec3{half.x, half.y, -half.z}}) {
+  for (const Vec3& corner :
+       {half, Vec3{-half.x, half.y, half.z}, Vec3{half.x, -half.y, half.z}, Vec3{half.x, half.y, -half.z}}) {
     moved_mm = std::fmax(moved_mm, (sheared * corner - frame.direction * corner).norm());
   }
   return moved_mm;
@@ -87,10 +87,11 @@ void require_spacing(const ImageFrame& frame, const std::string& subject) {
                      "spacing_mm");
   }
   if (s.max_coeff() > kMostAnisotropy * s.min_coeff()) {
-    throw InputError(subject + text_of(": its voxels are %.4g times as long as thick, more than %.0f; correct the "
-                                       "spacing or resample it",
-                                       s.max_coeff() / s.min_coeff(), kMostAnisotropy),
-                     "spacing_mm");
+    throw InputError(
+        subject + text_of(": its voxels are %.4g times as long as thick, more than %.0f; correct the "
+                          "spacing or resample it",
+                          s.max_coeff() / s.min_coeff(), kMostAnisotropy),
+        "spacing_mm");
   }
 }
 
@@ -103,10 +104,11 @@ void require_direction(const ImageFrame& frame, const std::string& subject, bool
     throw InputError(subject + ": its direction matrix is singular; correct it", "direction");
   }
   if (shear > kMostShear && !accept_shear) {
-    throw InputError(subject + text_of(": its axes are sheared by %.3g (two of them are %.4g degrees apart); "
-                                       "resample it to an orthogonal grid, or accept_shear takes the nearest one",
-                                       shear, std::acos(shear) * 180 / M_PI),
-                     "direction");
+    throw InputError(
+        subject + text_of(": its axes are sheared by %.3g (two of them are %.4g degrees apart); "
+                          "resample it to an orthogonal grid, or accept_shear takes the nearest one",
+                          shear, std::acos(shear) * 180 / M_PI),
+        "direction");
   }
   if (distance_from_orthonormal(d) > 2 * kMostShear && shear <= kMostShear) {
     throw InputError(subject + ": its direction matrix has a column that is not of length 1; correct it",
@@ -126,9 +128,10 @@ void require_usable_frame(ImageFrame& frame, const std::string& subject, bool ac
     const double shear = shear_of(frame.direction);
     const double moved_mm = straighten(frame);
     if (warnings != nullptr && moved_mm > kVoxels * frame.spacing_mm.min_coeff()) {
-      warnings->push_back(text_of("its axes are sheared by %.3g; the nearest orthogonal frame is taken, which moves "
-                                  "voxel centres by up to %.3g mm",
-                                  shear, moved_mm));
+      warnings->push_back(
+          text_of("its axes are sheared by %.3g; the nearest orthogonal frame is taken, which moves "
+                  "voxel centres by up to %.3g mm",
+                  shear, moved_mm));
     }
   } else if (distance != 0) {  // a signed permutation is exact already
     orthonormalise(frame);

@@ -17,7 +17,8 @@ void add_voxel(const LabelImage& image, int i, int j, int k, LabelTexture& sum) 
   bool alone = true;
   for (const Index3& step : kForward) {
     const MaterialId after = image.at_or_background(i + step[0], j + step[1], k + step[2]);
-    alone = alone && after != material && image.at_or_background(i - step[0], j - step[1], k - step[2]) != material;
+    alone = alone && after != material &&
+            image.at_or_background(i - step[0], j - step[1], k - step[2]) != material;
     sum.faces += after != kBackground ? 1 : 0;
     sum.unlike_faces += after != kBackground && after != material ? 1 : 0;
   }
@@ -58,7 +59,8 @@ std::string why_grey(const LabelImage& image) {
   }
   char text[300];
   std::snprintf(text, sizeof text,
-                "it looks like a grey image: %zu labels, %.0f %% of the labelled voxels stand alone (more than %.0f %%) "
+                "it looks like a grey image: %zu labels, %.0f %% of the labelled voxels stand alone (more "
+                "than %.0f %%) "
                 "or %.0f %% of neighbours differ (more than %.0f %%)",
                 t.labels, 100 * single, 100 * kMostSingleVoxels, 100 * unlike, 100 * kMostUnlikeFaces);
   return text;

@@ -18,7 +18,8 @@ LabelImage cubes(int count, int side) {
   image.voxels.hold(image.labels.size());
   for (std::size_t v = 0; v < image.voxels.size(); ++v) {
     const Index3 at = image.frame.index_of(v);
-    image.voxels.set(v, static_cast<MaterialId>(1 + at[0] / side + count * (at[1] / side + count * (at[2] / side))));
+    image.voxels.set(
+        v, static_cast<MaterialId>(1 + at[0] / side + count * (at[1] / side + count * (at[2] / side))));
   }
   return image;
 }

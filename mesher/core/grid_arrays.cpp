@@ -107,7 +107,8 @@ template <int Nodes>
 void take_cell(CellBlock<Nodes>& block, const std::int64_t* ids, bool wedge, Label label) {
   std::array<VertexId, Nodes> cell;
   for (int n = 0; n < Nodes; ++n) {
-    cell[static_cast<std::size_t>(n)] = static_cast<VertexId>(ids[wedge ? kWedgeOrder[n % 6] : static_cast<std::size_t>(n)]);
+    cell[static_cast<std::size_t>(n)] =
+        static_cast<VertexId>(ids[wedge ? kWedgeOrder[n % 6] : static_cast<std::size_t>(n)]);
   }
   block.add(cell, label);
 }

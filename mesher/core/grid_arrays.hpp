@@ -22,9 +22,9 @@ struct GridArrays {
 inline constexpr std::size_t kWedgeOrder[6] = {0, 2, 1, 3, 5, 4};
 
 /// The mesh of a grid: cells of lower dimension are left out. Throws InputError, which begins with `subject`,
-/// for arrays whose lengths do not go together, a cell with another number of nodes than its type has, a node that is
-/// not there, a coordinate that is no finite number, a label that is no 32-bit integer, cells that are known
-/// neither as volumes nor as their boundaries, and a grid without volume cells.
+/// for arrays whose lengths do not go together, a cell with another number of nodes than its type has, a node
+/// that is not there, a coordinate that is no finite number, a label that is no 32-bit integer, cells that
+/// are known neither as volumes nor as their boundaries, and a grid without volume cells.
 Mesh mesh_of_grid(const GridArrays& grid, const std::string& subject);
 
 }  // namespace cbc3d

@@ -27,8 +27,8 @@ struct ReadImageOptions {
 LabelImage read_label_image(const std::filesystem::path& path, const ReadImageOptions& options = {},
                             std::vector<std::string>* warnings = nullptr);
 
-/// Checks, before any long work, that an image could be written to `path`: a known extension and a folder that
-/// can be written to. Throws InputError.
+/// Checks, before any long work, that an image could be written to `path`: a known extension and a folder
+/// that can be written to. Throws InputError.
 void require_writable_image_path(const std::filesystem::path& path);
 
 /// Writes a label image as NIfTI, NRRD or MHA by the extension, in the smallest integer type that holds its

@@ -144,7 +144,8 @@ class Classifier {
 
   void require_label(T value) const {
     char digits[64];
-    const std::string text(std::begin(digits), std::to_chars(std::begin(digits), std::end(digits), value).ptr);
+    const std::string text(std::begin(digits),
+                           std::to_chars(std::begin(digits), std::end(digits), value).ptr);
     if constexpr (std::is_floating_point_v<T>) {
       if (!std::isfinite(value) || value != std::floor(value)) {
         fail("it has the fractional value " + text +

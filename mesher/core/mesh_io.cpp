@@ -160,12 +160,13 @@ void require_readable(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
     throw InputError("cannot read '" + path.string() + "': " +
-                     (error && error != std::errc::no_such_file_or_directory ? error.message() + "; check its permissions"
-                                                                             : "the file does not exist; check its name"));
+                     (error && error != std::errc::no_such_file_or_directory
+                          ? error.message() + "; check its permissions"
+                          : "the file does not exist; check its name"));
   }
   if (::access(path.c_str(), R_OK) != 0) {
-    throw InputError("cannot read '" + path.string() + "': the file cannot be opened (" + std::strerror(errno) +
-                     "); check its permissions");
+    throw InputError("cannot read '" + path.string() + "': the file cannot be opened (" +
+                     std::strerror(errno) + "); check its permissions");
   }
 }
 

@@ -82,8 +82,9 @@ decltype(auto) with_type(Component component, const F& f) {
 }
 
 VoxelBytes voxels_in_memory(ImageHeader& header) {
-  VoxelBytes voxels(formats::lead_bytes(header), formats::voxel_bytes(header));
-  formats::read_voxels(header, voxels.whole());
+  const std::size_t lead = formats::lead_bytes(header), bytes = formats::voxel_bytes(header);
+  VoxelBytes voxels(lead, bytes);
+  formats::read_voxels(header, {voxels.data() - lead, lead + bytes});
   return voxels;
 }
 
@@ -131,7 +132,8 @@ void treat_floats(ImageHeader& header, const FileVoxels& voxels, const ReadImage
       const std::size_t count = formats::voxel_bytes(header) / sizeof(T);
       const std::size_t zeroed = header.non_finite_is_background ? zero_what_is_no_number(values, count) : 0;
       if (zeroed > 0) {
-        header.warnings.push_back(std::to_string(zeroed) + " voxels are no finite number; they are background");
+        header.warnings.push_back(std::to_string(zeroed) +
+                                  " voxels are no finite number; they are background");
       }
       if (options.round_values) {
         round_values(values, count);

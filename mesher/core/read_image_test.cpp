@@ -64,8 +64,9 @@ TEST_F(ReadImage, RoundingIsAskedForAndBounded) {
 }
 
 TEST_F(ReadImage, AShearIsTakenWhenItIsAccepted) {
-  const std::string head = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\nspace: LPS\n"
-                           "space origin: (0,0,0)\nspace directions: ";
+  const std::string head =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\nspace: LPS\n"
+      "space origin: (0,0,0)\nspace directions: ";
   const std::string voxels = std::string("\n\n") + std::string("\0\1\2\3\4\0\1\2", 8);
   write("s.nrrd", head + "(1,0,0) (0.02,1,0) (0,0,1)" + voxels);
   EXPECT_NE(why_not_read("s.nrrd").find("sheared by 0.02"), std::string::npos) << why_not_read("s.nrrd");
@@ -85,7 +86,8 @@ TEST_F(ReadImage, GreyValuesKeepTheirFraction) {
 }
 
 TEST_F(ReadImage, WideIntegersFitOrAreRefused) {
-  const std::string head = "NRRD0004\ntype: int64\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: little\n\n";
+  const std::string head =
+      "NRRD0004\ntype: int64\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: little\n\n";
   write("a.nrrd", head + bytes_of(std::vector<std::int64_t>{0, -70000}));
   EXPECT_EQ(read_label_image(file("a.nrrd")).labels, (std::vector<Label>{0, -70000}));
   write("b.nrrd", head + bytes_of(std::vector<std::int64_t>{0, std::int64_t{1} << 40U}));

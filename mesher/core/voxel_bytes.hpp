@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include "mesher/core/large_pages.hpp"
 
@@ -21,8 +20,6 @@ class VoxelBytes {
 
   /// The first voxel's first byte.
   [[nodiscard]] std::uint8_t* data() const { return memory_.get() + header_bytes_; }
-  /// Header and voxels.
-  [[nodiscard]] std::span<std::uint8_t> whole() const { return {memory_.get(), bytes_}; }
 
  private:
   std::size_t header_bytes_, bytes_;

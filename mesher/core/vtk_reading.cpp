@@ -140,7 +140,8 @@ GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs:
     fail(path, "it has no cell array 'label'; add one integer label a cell");
   }
   if (told && finding == Finding::arrays_of_no_length) {
-    fail(path, "its cells, their types and their labels are not as many; the file is damaged, write it again");
+    fail(path,
+         "its cells, their types and their labels are not as many; the file is damaged, write it again");
   }
   if (told && receive(child, most_bytes, grid.points) && receive(child, most_bytes, grid.types) &&
       receive(child, most_bytes, grid.offsets) && receive(child, most_bytes, grid.connectivity) &&

@@ -30,10 +30,13 @@ class VtkReading : public ::testing::Test {
 };
 
 /// One tet, in text.
-std::string vtu(const std::string& cells, const std::string& label = "1", const std::string& points = "0 0 0 1 0 0 0 1 0 0 0 1") {
+std::string vtu(const std::string& cells, const std::string& label = "1",
+                const std::string& points = "0 0 0 1 0 0 0 1 0 0 0 1") {
   return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
-         "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
-         "format=\"ascii\">" + points + "</DataArray></Points>" + cells +
+         "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><Points><DataArray type=\"Float64\" "
+         "NumberOfComponents=\"3\" "
+         "format=\"ascii\">" +
+         points + "</DataArray></Points>" + cells +
          "<CellData><DataArray type=\"Float64\" Name=\"label\" format=\"ascii\">" + label +
          "</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>";
 }
@@ -41,7 +44,8 @@ std::string vtu(const std::string& cells, const std::string& label = "1", const 
 std::string cells(const std::string& ids, const std::string& offset, const std::string& type) {
   return "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" + ids +
          "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offset +
-         "</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + type + "</DataArray></Cells>";
+         "</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + type +
+         "</DataArray></Cells>";
 }
 
 TEST_F(VtkReading, GoodFilesAreRead) {
@@ -69,7 +73,8 @@ TEST_F(VtkReading, WhatDoesNotGoTogetherIsRefused) {
 /// Lengths that are cut and bytes that are changed: a mesh or one line, never a crash.
 TEST_F(VtkReading, DamageEndsInALine) {
   std::mt19937 random(5);
-  for (const auto& [name, format] : {std::pair{"d.vtu", VtkFormat::xml}, std::pair{"d.vtk", VtkFormat::legacy}}) {
+  for (const auto& [name, format] :
+       {std::pair{"d.vtu", VtkFormat::xml}, std::pair{"d.vtk", VtkFormat::legacy}}) {
     write_mesh(testing::one_of_each(), folder_.file(name));
     const std::string whole = folder_.content(name);
     for (int n = 0; n < 40; ++n) {

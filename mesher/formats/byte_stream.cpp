@@ -118,7 +118,8 @@ class ZlibStream : public PackedStream {
       if (only_zeros_follow()) {
         return false;
       }
-      throw FormatError("its compressed data are followed by bytes that are none; it is damaged, copy it again");
+      throw FormatError(
+          "its compressed data are followed by bytes that are none; it is damaged, copy it again");
     }
     inflateReset(&stream_);
     ended_ = false;
@@ -141,7 +142,8 @@ class ZlibStream : public PackedStream {
       throw FormatError("its compressed data break off (the file is truncated); copy it again");
     } else if (result != Z_OK && result != Z_BUF_ERROR) {
       throw FormatError("its compressed data are damaged (" +
-                        std::string(stream_.msg != nullptr ? stream_.msg : "zlib fails") + "); copy it again");
+                        std::string(stream_.msg != nullptr ? stream_.msg : "zlib fails") +
+                        "); copy it again");
     }
     return room - stream_.avail_out;
   }
@@ -201,7 +203,7 @@ class BzipStream : public PackedStream {
     consume(bytes.size() - stream_.avail_in);
     ended_ = result == BZ_STREAM_END;
     if (result != BZ_OK && !ended_) {
-      throw FormatError("its compressed data are damaged (bzip2's check sum fails); copy it again");
+      throw FormatError("its compressed data are damaged (bzip2 fails); copy it again");
     }
     return room - stream_.avail_out;
   }
@@ -231,7 +233,8 @@ Encoding encoding_of_file(const fs::path& path) {
   if (got >= 2 && magic[0] == 0x1F && magic[1] == 0x8B) {
     return Encoding::gzip;
   }
-  const bool bzip2 = got == 4 && std::memcmp(magic.data(), "BZh", 3) == 0 && magic[3] >= '1' && magic[3] <= '9';
+  const bool bzip2 =
+      got == 4 && std::memcmp(magic.data(), "BZh", 3) == 0 && magic[3] >= '1' && magic[3] <= '9';
   return bzip2 ? Encoding::bzip2 : Encoding::raw;
 }
 

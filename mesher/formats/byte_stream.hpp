@@ -32,7 +32,8 @@ std::unique_ptr<ByteStream> open_stream(const std::filesystem::path& path, std::
 /// Gzip, bzip2 or raw by the first bytes of a file. Throws FormatError where it cannot be opened.
 Encoding encoding_of_file(const std::filesystem::path& path);
 
-/// The first bytes of a file, decompressed where it is compressed as a whole; fewer than `most` where it ends.
+/// The first bytes of a file, decompressed where it is compressed as a whole; fewer than `most` where it
+/// ends.
 std::string head_of_file(const std::filesystem::path& path, Encoding encoding, std::size_t most);
 
 }  // namespace cbc3d::formats

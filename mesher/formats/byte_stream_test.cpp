@@ -46,16 +46,18 @@ TEST_F(ByteStreams, GzipAndBzip2OfSeveralMembers) {
 
 TEST_F(ByteStreams, DamageIsNamed) {
   for (std::size_t length = 2; length < packed("some text").size(); ++length) {
-    EXPECT_NE(all(packed("some text").substr(0, length), Encoding::gzip).find("break off"), std::string::npos) << length;
+    EXPECT_NE(all(packed("some text").substr(0, length), Encoding::gzip).find("break off"), std::string::npos)
+        << length;
   }
   for (std::size_t length = 4; length < bzipped("some text").size(); ++length) {
-    EXPECT_NE(all(bzipped("some text").substr(0, length), Encoding::bzip2).find("break off"), std::string::npos);
+    EXPECT_NE(all(bzipped("some text").substr(0, length), Encoding::bzip2).find("break off"),
+              std::string::npos);
   }
   std::string crc = packed("some text");
   crc[crc.size() - 6] ^= 1;
   EXPECT_NE(all(crc, Encoding::gzip).find("damaged"), std::string::npos);
   EXPECT_NE(all(packed("a") + "b", Encoding::gzip).find("followed"), std::string::npos);
-  EXPECT_NE(all(bzipped("a") + "b", Encoding::bzip2).find("break off"), std::string::npos);
+  EXPECT_NE(all(bzipped("a") + "b", Encoding::bzip2).find("damaged"), std::string::npos);
 }
 
 TEST_F(ByteStreams, FilesAreKnownByTheirFirstBytes) {

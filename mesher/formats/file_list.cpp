@@ -33,8 +33,8 @@ Pattern parse(const std::string& text) {
   const char* const begin = text.data() + at;
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), pattern.width);
   at += static_cast<std::size_t>(end - begin);
-  if (pattern.width < 0 || pattern.width > 20 || at >= text.size() ||
-      (text[at] != 'd' && text[at] != 'i' && text[at] != 'u')) {
+  if (error == std::errc::result_out_of_range || pattern.width < 0 || pattern.width > 20 ||
+      at >= text.size() || (text[at] != 'd' && text[at] != 'i' && text[at] != 'u')) {
     refuse(text);
   }
   pattern.before = text.substr(0, percent);
@@ -60,11 +60,12 @@ bool is_file_pattern(const std::vector<std::string>& words) {
 std::vector<std::string> names_of_pattern(const std::vector<std::string>& words) {
   const Pattern pattern = parse(words.at(0));
   const auto first = to_integer(words.at(1)), last = to_integer(words.at(2)), step = to_integer(words.at(3));
-  const bool counts = first && last && step && *step != 0 && *first >= 0 && *last >= 0 && *first < (1LL << 40U) &&
-                      *last < (1LL << 40U) && (*last - *first) / *step >= 0 &&
+  const bool counts = first && last && step && *step != 0 && *first >= 0 && *last >= 0 &&
+                      *first < (1LL << 40U) && *last < (1LL << 40U) && (*last - *first) / *step >= 0 &&
                       (*last - *first) / *step < kMostFiles;
   if (!counts) {
-    throw FormatError("its voxels lie in files numbered " + in_quotes(words[1] + " " + words[2] + " " + words[3]) +
+    throw FormatError("its voxels lie in files numbered " +
+                      in_quotes(words[1] + " " + words[2] + " " + words[3]) +
                       ", which are none; repair its header");
   }
   std::vector<std::string> names;
@@ -74,7 +75,8 @@ std::vector<std::string> names_of_pattern(const std::vector<std::string>& words)
   return names;
 }
 
-std::vector<DataFile> files_beside(const std::filesystem::path& header, const std::vector<std::string>& names) {
+std::vector<DataFile> files_beside(const std::filesystem::path& header,
+                                   const std::vector<std::string>& names) {
   std::vector<DataFile> files;
   for (const std::string& name : names) {
     if (trimmed(name).empty() || name.find('\0') != std::string::npos) {

@@ -17,6 +17,7 @@ bool is_file_pattern(const std::vector<std::string>& words);
 std::vector<std::string> names_of_pattern(const std::vector<std::string>& words);
 
 /// Data files by their names beside the header. FormatError for an empty name.
-std::vector<DataFile> files_beside(const std::filesystem::path& header, const std::vector<std::string>& names);
+std::vector<DataFile> files_beside(const std::filesystem::path& header,
+                                   const std::vector<std::string>& names);
 
 }  // namespace cbc3d::formats

@@ -53,10 +53,12 @@ ImageHeader read_gipl_header(std::string_view head, const std::filesystem::path&
     image.origin_mm[axis] = at.get<double>(204 + 8 * axis);
   }
   if (const auto volumes = at.get<std::uint16_t>(6); volumes > 1) {
-    throw FormatError("it is 4-dimensional with " + std::to_string(volumes) + " volumes; give one 3-D volume of it");
+    throw FormatError("it is 4-dimensional with " + std::to_string(volumes) +
+                      " volumes; give one 3-D volume of it");
   }
   image.component = component_of(at.get<std::uint16_t>(8));
-  image.warnings.emplace_back("GIPL says nothing of directions: its axes are taken towards left, posterior, superior");
+  image.warnings.emplace_back(
+      "GIPL says nothing of directions: its axes are taken towards left, posterior, superior");
   image.encoding = encoding;
   image.files = {{.path = path, .skipped_bytes = kBytes}};
   return image;

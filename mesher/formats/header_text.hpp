@@ -19,7 +19,8 @@ std::vector<std::string> words_of(std::string_view text, std::string_view separa
 std::optional<double> to_number(std::string_view text);
 std::optional<std::int64_t> to_integer(std::string_view text);
 
-/// All words of `text` as finite numbers, `count` of them (0: any number of them). Throws FormatError that names `key`.
+/// All words of `text` as finite numbers, `count` of them (0: any number of them). Throws FormatError that
+/// names `key`.
 std::vector<double> numbers_of(const std::string& key, std::string_view text, std::size_t count);
 std::vector<std::int64_t> integers_of(const std::string& key, std::string_view text, std::size_t count);
 /// A size: an integer from 1 to 2^31 - 1. Throws FormatError.

@@ -39,17 +39,18 @@ struct DataFile {
 /// A 3-D image with one value for each voxel. All figures are finite, sizes positive, and the product of
 /// sizes and component fits std::size_t.
 struct ImageHeader {
-  std::string format;                       ///< as its users call it: "NIfTI-1"
+  std::string format;                        ///< as its users call it: "NIfTI-1"
   std::array<std::size_t, 3> size{0, 0, 0};  ///< along the storage axes
   Component component = Component::uint8;
   bool big_endian = false;
   Encoding encoding = Encoding::raw;
   std::vector<DataFile> files;  ///< every one holds as many bytes as every other
   Triple spacing_mm{1, 1, 1};
-  Triple origin_mm{0, 0, 0};                                 ///< LPS, centre of the first voxel
-  std::array<Triple, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< LPS direction of every storage axis, unit
-  double slope = 1, intercept = 0;  ///< value = slope * stored + intercept
-  bool non_finite_is_background = false;  ///< the format's library reads NaN as 0
+  Triple origin_mm{0, 0, 0};  ///< LPS, centre of the first voxel
+  std::array<Triple, 3> axes{
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< LPS direction of every storage axis, unit
+  double slope = 1, intercept = 0;         ///< value = slope * stored + intercept
+  bool non_finite_is_background = false;   ///< the format's library reads NaN as 0
   std::vector<std::string> warnings;
 };
 
@@ -61,8 +62,8 @@ inline bool is_floating(Component component) {
 /// Bytes of all voxels. Throws FormatError where they are more than std::size_t or 2^62 can count.
 std::size_t voxel_bytes(const ImageHeader& header);
 
-/// Checks what every format promises: sizes from 1 to 2^31 - 1, a product that can be counted, finite figures,
-/// spacing of 1e-6 to 1e6 mm, an origin within 1e9 mm. Throws FormatError.
+/// Checks what every format promises: sizes from 1 to 2^31 - 1, a product that can be counted, finite
+/// figures, spacing of 1e-6 to 1e6 mm, an origin within 1e9 mm. Throws FormatError.
 void require_sound(const ImageHeader& header);
 
 /// Spacing and directions of the axes from the steps between voxels along them, LPS mm. Throws FormatError

@@ -79,7 +79,8 @@ bool is_inrimage(std::string_view head) {
   return head.starts_with("#INRIMAGE");
 }
 
-ImageHeader read_inrimage_header(std::string_view head, const std::filesystem::path& path, Encoding encoding) {
+ImageHeader read_inrimage_header(std::string_view head, const std::filesystem::path& path,
+                                 Encoding encoding) {
   const std::size_t end = head.substr(0, 64 * kBlock).find("##}");
   if (end == std::string_view::npos) {
     throw FormatError("not an INRIMAGE-4 file (its header does not end); convert it to NIfTI or NRRD");

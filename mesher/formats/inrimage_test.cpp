@@ -17,8 +17,9 @@ std::string inrimage(const std::string& fields, const std::string& voxels) {
 const std::string kSize = "XDIM=2\nYDIM=2\nZDIM=1\nVDIM=1\n";
 
 TEST_F(Inrimage, EveryByteOrderPlainAndCompressed) {
-  const std::string little = inrimage(kSize + "TYPE=unsigned fixed\nPIXSIZE=8 bits\nCPU=decm\nVX=0.5\nVZ=2\nTX=3\n",
-                                      std::string("\0\x01\x02\x02", 4));
+  const std::string little =
+      inrimage(kSize + "TYPE=unsigned fixed\nPIXSIZE=8 bits\nCPU=decm\nVX=0.5\nVZ=2\nTX=3\n",
+               std::string("\0\x01\x02\x02", 4));
   const ImageHeader header = header_of("a.inr", little);
   EXPECT_EQ(header.spacing_mm, (Triple{0.5, 1, 2}));
   EXPECT_EQ(header.origin_mm, (Triple{3, 0, 0}));
@@ -34,7 +35,8 @@ TEST_F(Inrimage, DamageIsNamed) {
   expect_refusal("b.inr", inrimage(kSize + type + "TX=nan\n", "abcd"), "'nan'");
   expect_refusal("c.inr", inrimage(kSize + type + "VX=nan\n", "abcd"), "'nan'");
   expect_refusal("d.inr", inrimage(kSize + type + "VX=1e-300\n", "abcd"), "spacing");
-  expect_refusal("e.inr", inrimage("XDIM=1073741824\nYDIM=1073741824\nZDIM=2\nTYPE=float\nPIXSIZE=64 bits\n", ""),
+  expect_refusal("e.inr",
+                 inrimage("XDIM=1073741824\nYDIM=1073741824\nZDIM=2\nTYPE=float\nPIXSIZE=64 bits\n", ""),
                  "more voxels than can be counted");
   expect_refusal("f.inr", inrimage(kSize + "TYPE=float\nPIXSIZE=16 bits\n", "abcd"), "PIXSIZE=16");
   expect_refusal("g.inr", inrimage("XDIM=2\nVDIM=3\n" + type, "abcd"), "VDIM=3");

@@ -47,7 +47,8 @@ Header parse(std::string_view head) {
     const std::size_t equals = line->find('=');
     if (equals == std::string_view::npos) {
       if (!trimmed(*line).empty()) {
-        throw FormatError("its header has the line " + in_quotes(*line) + ", which is no field; repair its header");
+        throw FormatError("its header has the line " + in_quotes(*line) +
+                          ", which is no field; repair its header");
       }
       continue;
     }
@@ -107,19 +108,20 @@ void take_size(const Header& header, std::size_t dimensions, ImageHeader& image)
   }
   const std::string* const channels = header.find("ElementNumberOfChannels");
   if (channels != nullptr && integers_of("ElementNumberOfChannels", *channels, 1)[0] != 1) {
-    throw FormatError("it has " + *channels +
-                      " components per voxel (a colour or vector image); give a label image with one value per voxel");
+    throw FormatError(
+        "it has " + *channels +
+        " components per voxel (a colour or vector image); give a label image with one value per voxel");
   }
 }
 
 Component component_of(const Header& header) {
   static const std::map<std::string, Component> kTypes = {
-      {"MET_UCHAR", Component::uint8},        {"MET_CHAR", Component::int8},
-      {"MET_USHORT", Component::uint16},      {"MET_SHORT", Component::int16},
-      {"MET_UINT", Component::uint32},        {"MET_INT", Component::int32},
-      {"MET_ULONG", Component::uint32},       {"MET_LONG", Component::int32},
-      {"MET_ULONG_LONG", Component::uint64},  {"MET_LONG_LONG", Component::int64},
-      {"MET_FLOAT", Component::float32},      {"MET_DOUBLE", Component::float64}};
+      {"MET_UCHAR", Component::uint8},       {"MET_CHAR", Component::int8},
+      {"MET_USHORT", Component::uint16},     {"MET_SHORT", Component::int16},
+      {"MET_UINT", Component::uint32},       {"MET_INT", Component::int32},
+      {"MET_ULONG", Component::uint32},      {"MET_LONG", Component::int32},
+      {"MET_ULONG_LONG", Component::uint64}, {"MET_LONG_LONG", Component::int64},
+      {"MET_FLOAT", Component::float32},     {"MET_DOUBLE", Component::float64}};
   const std::string* const type = header.find("ElementType");
   const auto found = type == nullptr ? kTypes.end() : kTypes.find(*type);
   if (found == kTypes.end()) {
@@ -133,15 +135,16 @@ double unit_mm(const Header& header, ImageHeader& image) {
   const std::string* const unit = header.find("DistanceUnits");
   const auto mm = unit == nullptr ? std::optional<double>(1) : millimetres_of(*unit);
   if (!mm && *unit != "?" && !unit->empty()) {
-    image.warnings.push_back("its DistanceUnits " + in_quotes(*unit) + " are no length that is known; mm are taken");
+    image.warnings.push_back("its DistanceUnits " + in_quotes(*unit) +
+                             " are no length that is known; mm are taken");
   }
   return mm.value_or(1);
 }
 
 /// Letters say where an axis comes from: R from the right, towards the left, and so on.
 std::optional<std::array<Triple, 3>> axes_of_letters(const std::string& letters) {
-  static const std::map<char, Triple> kTowards = {{'R', {1, 0, 0}}, {'L', {-1, 0, 0}}, {'A', {0, 1, 0}},
-                                                  {'P', {0, -1, 0}}, {'I', {0, 0, 1}}, {'S', {0, 0, -1}}};
+  static const std::map<char, Triple> kTowards = {{'R', {1, 0, 0}},  {'L', {-1, 0, 0}}, {'A', {0, 1, 0}},
+                                                  {'P', {0, -1, 0}}, {'I', {0, 0, 1}},  {'S', {0, 0, -1}}};
   std::array<Triple, 3> axes{};
   Triple used{};
   for (std::size_t axis = 0; axis < 3 && axis < letters.size(); ++axis) {
@@ -185,7 +188,8 @@ void take_directions(const Header& header, std::size_t dimensions, ImageHeader& 
   }
   const Triple spacing = image.spacing_mm;
   set_steps(image, steps, "TransformMatrix");
-  for (std::size_t axis = 0; axis < 3; ++axis) {  // the matrix may carry the spacing, too, which must not count
+  for (std::size_t axis = 0; axis < 3;
+       ++axis) {  // the matrix may carry the spacing, too, which must not count
     const double length = image.spacing_mm[axis];
     if (std::fabs(length - 1) > 1e-3) {
       throw FormatError("its TransformMatrix has a row of length " + number_text(length) +
@@ -235,7 +239,7 @@ void take_scaling(const Header& header, ImageHeader& image) {
 
 void take_encoding(const Header& header, ImageHeader& image) {
   image.big_endian = is_true(header, {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}, false);
-  image.encoding = !is_true(header, {"BinaryData"}, true)         ? Encoding::ascii
+  image.encoding = !is_true(header, {"BinaryData"}, true)       ? Encoding::ascii
                    : is_true(header, {"CompressedData"}, false) ? Encoding::gzip
                                                                 : Encoding::raw;
 }

@@ -43,7 +43,8 @@ TEST_F(MetaImage, LettersStandInForAMatrixAndAreCheckedAgainstOne) {
 TEST_F(MetaImage, VoxelsCompressedDetachedAndInLists) {
   const auto plain = voxels_of("a.mha", metaimage(""));
   const std::string head = "ObjectType = Image\nNDims = 3\nDimSize = 2 3 4\nElementType = MET_UCHAR\n";
-  EXPECT_EQ(voxels_of("z.mha", head + "CompressedData = True\nElementDataFile = LOCAL\n" + packed(kVoxels)), plain);
+  EXPECT_EQ(voxels_of("z.mha", head + "CompressedData = True\nElementDataFile = LOCAL\n" + packed(kVoxels)),
+            plain);
   folder_.write("v.raw", "head" + kVoxels);
   EXPECT_EQ(voxels_of("d.mhd", head + "HeaderSize = 4\nElementDataFile = v.raw\n"), plain);
   EXPECT_EQ(voxels_of("e.mhd", head + "HeaderSize = -1\nElementDataFile = v.raw\n"), plain);
@@ -55,8 +56,10 @@ TEST_F(MetaImage, VoxelsCompressedDetachedAndInLists) {
 }
 
 TEST_F(MetaImage, DamageIsNamed) {
-  expect_refusal("a.mhd", "ObjectType = Image\nNDims = 3\nDimSize = 8 8 8\nElementType = MET_UCHAR\n"
-                          "ElementDataFile = %s%s%n 1 8 1\n", "'%s%s%n'");
+  expect_refusal("a.mhd",
+                 "ObjectType = Image\nNDims = 3\nDimSize = 8 8 8\nElementType = MET_UCHAR\n"
+                 "ElementDataFile = %s%s%n 1 8 1\n",
+                 "'%s%s%n'");
   expect_refusal("b.mha", "ObjectType = Image\nNDims = -1\nElementDataFile = LOCAL\n", "NDims -1");
   expect_refusal("c.mha", "ObjectType = Image\nNDims = 2000000000\nElementDataFile = LOCAL\n", "NDims");
   expect_refusal("d.mha", metaimage("ElementSpacing = nan 1 1\n"), "'nan'");

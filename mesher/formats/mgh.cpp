@@ -26,14 +26,15 @@ Component component_of(int type) {
   }
 }
 
-/// Spacing, directions and the centre of the volume, right-anterior-superior; the centre is the voxel of half the
-/// size, as FreeSurfer has it.
+/// Spacing, directions and the centre of the volume, right-anterior-superior; the centre is the voxel of half
+/// the size, as FreeSurfer has it.
 void take_frame(const BinaryHeader& at, ImageHeader& image) {
   const bool good = at.get<std::int16_t>(28) > 0;
   std::array<Triple, 3> axes{{{-1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
   Triple centre{};
   if (!good) {
-    image.warnings.emplace_back("its header says nothing of its place: coronal slices of 1 mm around 0 are taken");
+    image.warnings.emplace_back(
+        "its header says nothing of its place: coronal slices of 1 mm around 0 are taken");
   }
   for (std::size_t axis = 0; good && axis < 3; ++axis) {
     image.spacing_mm[axis] = at.get<float>(30 + 4 * axis);
@@ -57,7 +58,8 @@ void take_frame(const BinaryHeader& at, ImageHeader& image) {
 
 bool is_mgh(std::string_view head, const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
-  const bool named = extension == ".mgh" || extension == ".mgz" || lower_case(path.string()).ends_with(".mgh.gz");
+  const bool named =
+      extension == ".mgh" || extension == ".mgz" || lower_case(path.string()).ends_with(".mgh.gz");
   return named && head.size() >= kBytes && BinaryHeader(head, true).get<std::int32_t>(0) == 1;
 }
 
@@ -70,7 +72,8 @@ ImageHeader read_mgh_header(std::string_view head, const std::filesystem::path& 
     image.size[axis] = size_of("dimension", at.get<std::int32_t>(4 + 4 * axis));
   }
   if (const auto frames = at.get<std::int32_t>(16); frames > 1) {
-    throw FormatError("it is 4-dimensional with " + std::to_string(frames) + " volumes; give one 3-D volume of it");
+    throw FormatError("it is 4-dimensional with " + std::to_string(frames) +
+                      " volumes; give one 3-D volume of it");
   }
   image.component = component_of(at.get<std::int32_t>(20));
   take_frame(at, image);

@@ -81,9 +81,9 @@ Layout layout_of(const Fields& fields, std::size_t dimensions, const std::vector
 
 void take_type(const std::string& text, ImageHeader& image) {
   static const std::map<std::string, Component> kTypes = {
-      {"uint8", Component::uint8},   {"int8", Component::int8},       {"uint16", Component::uint16},
-      {"int16", Component::int16},   {"uint32", Component::uint32},   {"int32", Component::int32},
-      {"uint64", Component::uint64}, {"int64", Component::int64},     {"float32", Component::float32},
+      {"uint8", Component::uint8},    {"int8", Component::int8},     {"uint16", Component::uint16},
+      {"int16", Component::int16},    {"uint32", Component::uint32}, {"int32", Component::int32},
+      {"uint64", Component::uint64},  {"int64", Component::int64},   {"float32", Component::float32},
       {"float64", Component::float64}};
   std::string name = lower_case(text);
   if (name.ends_with("be") || name.ends_with("le")) {
@@ -92,7 +92,8 @@ void take_type(const std::string& text, ImageHeader& image) {
   }
   const auto found = kTypes.find(name);
   if (found == kTypes.end()) {
-    throw FormatError("its datatype is " + in_quotes(text) + ", which holds no labels; convert it to an integer type");
+    throw FormatError("its datatype is " + in_quotes(text) +
+                      ", which holds no labels; convert it to an integer type");
   }
   image.component = found->second;
 }
@@ -107,7 +108,8 @@ Affine affine_of(const Fields& fields, ImageHeader& image) {
   Affine affine;
   const auto found = fields.find("transform");
   if (found == fields.end()) {
-    image.warnings.emplace_back("its header has no transform: its axes are taken towards right, anterior, superior");
+    image.warnings.emplace_back(
+        "its header has no transform: its axes are taken towards right, anterior, superior");
     return affine;
   }
   std::string all;
@@ -116,7 +118,8 @@ Affine affine_of(const Fields& fields, ImageHeader& image) {
   }
   const auto entries = numbers_of("transform", all, 0);
   if (entries.size() != 12 && entries.size() != 16) {
-    throw FormatError("its transform has " + std::to_string(entries.size()) + " numbers, not 12; repair its header");
+    throw FormatError("its transform has " + std::to_string(entries.size()) +
+                      " numbers, not 12; repair its header");
   }
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -139,7 +142,8 @@ void take_frame(const Fields& fields, const Layout& layout, const std::vector<st
     for (std::size_t row = 0; row < 3; ++row) {
       const double entry = affine.axes[axis][row];
       image.axes[n][row] = (layout.backwards[n] ? -entry : entry) * (row < 2 ? -1 : 1);
-      image.origin_mm[row] += layout.backwards[n] ? entry * spacing[axis] * static_cast<double>(image.size[n] - 1) : 0;
+      image.origin_mm[row] +=
+          layout.backwards[n] ? entry * spacing[axis] * static_cast<double>(image.size[n] - 1) : 0;
     }
   }
   image.origin_mm[0] = -image.origin_mm[0];
@@ -179,8 +183,8 @@ ImageHeader read_mif_header(std::string_view head, const fs::path& path, Encodin
   }
   for (std::size_t axis = 3; axis < sizes.size(); ++axis) {
     if (size_of("dim", sizes[axis]) > 1) {
-      throw FormatError("it is " + std::to_string(sizes.size()) + "-dimensional with " + std::to_string(sizes[axis]) +
-                        " volumes; give one 3-D volume of it");
+      throw FormatError("it is " + std::to_string(sizes.size()) + "-dimensional with " +
+                        std::to_string(sizes[axis]) + " volumes; give one 3-D volume of it");
     }
   }
   take_type(required(fields, "datatype"), image);

@@ -10,7 +10,8 @@ using testing::packed;
 
 std::string mif(const std::string& layout, const std::string& lines = "") {
   std::string head = "mrtrix image\ndim: 2,3,4\nvox: 1,2,3\nlayout: " + layout +
-                     "\ndatatype: UInt8\ntransform: 1,0,0,10\ntransform: 0,1,0,20\ntransform: 0,0,1,30\n" + lines;
+                     "\ndatatype: UInt8\ntransform: 1,0,0,10\ntransform: 0,1,0,20\ntransform: 0,0,1,30\n" +
+                     lines;
   head += "file: . 512\nEND\n";
   head.resize(512, '\0');
   for (int v = 0; v < 24; ++v) {

@@ -154,9 +154,11 @@ Component component_of(int datatype) {
     case 1280:
       return Component::uint64;
     case 128:
-      throw FormatError("it has 3 components per voxel (RGB colours); give a label image with one value per voxel");
+      throw FormatError(
+          "it has 3 components per voxel (RGB colours); give a label image with one value per voxel");
     case 2304:
-      throw FormatError("it has 4 components per voxel (RGBA colours); give a label image with one value per voxel");
+      throw FormatError(
+          "it has 4 components per voxel (RGBA colours); give a label image with one value per voxel");
     case 1:
       throw FormatError("its voxels are single bits (datatype 1); convert it to 8-bit integers");
     default:
@@ -186,7 +188,8 @@ void take_values(const Fields& f, ImageHeader& header) {
 double unit_mm(const Fields& f, ImageHeader& header) {
   const int unit = f.version == kAnalyze ? 2 : f.units % 8;
   if (unit > 3) {
-    header.warnings.push_back("xyzt_units has the unit " + std::to_string(unit) + ", which is none; mm are taken");
+    header.warnings.push_back("xyzt_units has the unit " + std::to_string(unit) +
+                              ", which is none; mm are taken");
   }
   return unit == 1 ? 1000 : unit == 3 ? 0.001 : 1;
 }
@@ -250,11 +253,15 @@ Affine qform_of(const Fields& f) {
   return affine;
 }
 
-/// Spacing alone. Analyze has x towards the patient's left, NIfTI's method 1 towards the right.
+/// Spacing alone. NIfTI's method 1 has x towards the patient's right and the first voxel at 0; Analyze has x
+/// towards the left, and its readers put the centre of the image at 0.
 Affine spacing_alone(const Fields& f) {
+  const bool analyze = f.version == kAnalyze;
   Affine affine{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    affine.steps[axis][axis] = (f.version == kAnalyze && axis == 0 ? -1 : 1) * f.pixdim[axis + 1];
+    const double step = (analyze && axis == 0 ? -1 : 1) * f.pixdim[axis + 1];
+    affine.steps[axis][axis] = step;
+    affine.origin[axis] = analyze ? -step * static_cast<double>(f.dim[axis + 1] - 1) / 2 : 0;
   }
   return affine;
 }
@@ -266,8 +273,8 @@ void require_pixdim(Fields& f, ImageHeader& header) {
       header.warnings.push_back("pixdim[" + std::to_string(axis) + "] is negative; its size is taken");
     }
     if (!(f.pixdim[axis] > 0) || !std::isfinite(f.pixdim[axis])) {
-      throw FormatError("its header has pixdim[" + std::to_string(axis) + "] = " + number_text(f.pixdim[axis]) +
-                        ", which is no spacing; repair its header");
+      throw FormatError("its header has pixdim[" + std::to_string(axis) +
+                        "] = " + number_text(f.pixdim[axis]) + ", which is no spacing; repair its header");
     }
   }
 }
@@ -280,16 +287,17 @@ Affine frame_of(Fields& f, ImageHeader& header) {
   if (f.qform_code > 0) {
     return qform_of(f);
   }
-  header.warnings.emplace_back(
-      f.version == kAnalyze
-          ? "Analyze files say nothing of where the image lies: its first voxel is at 0, axes run left, anterior, superior"
-          : "neither qform nor sform is set: its first voxel is taken at 0, its axes towards right, anterior, "
-            "superior");
+  header.warnings.emplace_back(f.version == kAnalyze ? "Analyze files say nothing of where the image lies: "
+                                                       "its centre is taken at 0, its axes towards left, "
+                                                       "anterior, superior"
+                                                     : "neither qform nor sform is set: its first voxel is "
+                                                       "taken at 0, its axes towards right, anterior, "
+                                                       "superior");
   return spacing_alone(f);
 }
 
-/// Steps are lengths of columns; where they are the spacings to a float's last digits, these are taken as they
-/// are written.
+/// Steps are lengths of columns; where they are the spacings to a float's last digits, these are taken as
+/// they are written.
 void take_frame(const Affine& affine, const Fields& f, double mm, ImageHeader& header) {
   constexpr double kRounding = 1e-6;
   std::array<Triple, 3> steps = affine.steps;
@@ -311,7 +319,8 @@ void take_frame(const Affine& affine, const Fields& f, double mm, ImageHeader& h
   }
 }
 
-/// The largest distance that two affines put any voxel centre apart: at a corner, for it is a linear function.
+/// The largest distance that two affines put any voxel centre apart: at a corner, for it is a linear
+/// function.
 double largest_distance(const Affine& a, const Affine& b, const ImageHeader& header) {
   double largest = 0;
   for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -344,10 +353,11 @@ void warn_of_two_frames(const Fields& f, const Affine& affine, double mm, ImageH
   const Triple& s = header.spacing_mm;
   if (distance_mm > kVoxels * std::fmin(s[0], std::fmin(s[1], s[2]))) {
     char text[200];
-    std::snprintf(text, sizeof text,
-                  "its sform (code %d) and qform (code %d) place voxels up to %.4g mm apart; the sform is used, and "
-                  "other programs may take the other",
-                  f.sform_code, f.qform_code, distance_mm);
+    std::snprintf(
+        text, sizeof text,
+        "its sform (code %d) and qform (code %d) place voxels up to %.4g mm apart; the sform is used, and "
+        "other programs may take the other",
+        f.sform_code, f.qform_code, distance_mm);
     header.warnings.emplace_back(text);
   }
 }

@@ -43,8 +43,8 @@ TEST_F(Nifti, WithoutSformTheQformRulesAndWithoutBothThereIsAWarning) {
   std::string bytes = nifti();
   put(bytes, 254, std::int16_t{0});
   put(bytes, 252, std::int16_t{1});
-  put(bytes, 76, -1.0F);   // the third axis is turned
-  put(bytes, 264, 1.0F);   // half a turn around z
+  put(bytes, 76, -1.0F);  // the third axis is turned
+  put(bytes, 264, 1.0F);  // half a turn around z
   put(bytes, 268, 7.0F);
   const ImageHeader turned = header_of("a.nii", bytes);
   EXPECT_EQ(turned.axes[0], (Triple{1, 0, 0}));
@@ -104,6 +104,7 @@ TEST_F(Nifti, APairHasItsVoxelsBeside) {
   const ImageHeader analyze = header_of("p.hdr", header);
   EXPECT_EQ(analyze.format, "Analyze 7.5");
   EXPECT_EQ(analyze.axes[0], (Triple{1, 0, 0}));
+  EXPECT_EQ(analyze.origin_mm, (Triple{-0.25, 1, -2.25}));
   EXPECT_EQ(analyze.warnings.size(), 1U);
   folder_.write("p.img", nifti().substr(353));
   expect_refusal("p.hdr", header, "truncated");

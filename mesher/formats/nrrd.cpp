@@ -34,7 +34,8 @@ void take_field(std::string_view line, Header& header) {
   const std::size_t bare = line.ends_with(':') ? line.size() - 1 : std::string_view::npos;
   const std::size_t at = std::min(colon, bare);
   if (at == std::string_view::npos) {
-    throw FormatError("its header has the line " + in_quotes(line) + ", which is no field; repair its header");
+    throw FormatError("its header has the line " + in_quotes(line) +
+                      ", which is no field; repair its header");
   }
   const std::string key = canonical(line.substr(0, at));
   const std::string value(trimmed(line.substr(std::min(at + 2, line.size()))));
@@ -83,31 +84,51 @@ const std::string& required(const NrrdFields& fields, const std::string& key) {
 }
 
 Component component_of(const std::string& type) {
-  static const std::map<std::string, Component> kTypes = {
-      {"signed char", Component::int8},          {"int8", Component::int8},
-      {"int8_t", Component::int8},               {"char", Component::int8},
-      {"uchar", Component::uint8},               {"unsigned char", Component::uint8},
-      {"uint8", Component::uint8},               {"uint8_t", Component::uint8},
-      {"short", Component::int16},               {"short int", Component::int16},
-      {"signed short", Component::int16},        {"signed short int", Component::int16},
-      {"int16", Component::int16},               {"int16_t", Component::int16},
-      {"ushort", Component::uint16},             {"unsigned short", Component::uint16},
-      {"unsigned short int", Component::uint16}, {"uint16", Component::uint16},
-      {"uint16_t", Component::uint16},           {"int", Component::int32},
-      {"signed int", Component::int32},          {"int32", Component::int32},
-      {"int32_t", Component::int32},             {"uint", Component::uint32},
-      {"unsigned int", Component::uint32},       {"uint32", Component::uint32},
-      {"uint32_t", Component::uint32},           {"longlong", Component::int64},
-      {"long long", Component::int64},           {"long long int", Component::int64},
-      {"signed long long", Component::int64},    {"signed long long int", Component::int64},
-      {"int64", Component::int64},               {"int64_t", Component::int64},
-      {"ulonglong", Component::uint64},          {"unsigned long long", Component::uint64},
-      {"unsigned long long int", Component::uint64}, {"uint64", Component::uint64},
-      {"uint64_t", Component::uint64},           {"float", Component::float32},
-      {"double", Component::float64}};
+  static const std::map<std::string, Component> kTypes = {{"signed char", Component::int8},
+                                                          {"int8", Component::int8},
+                                                          {"int8_t", Component::int8},
+                                                          {"char", Component::int8},
+                                                          {"uchar", Component::uint8},
+                                                          {"unsigned char", Component::uint8},
+                                                          {"uint8", Component::uint8},
+                                                          {"uint8_t", Component::uint8},
+                                                          {"short", Component::int16},
+                                                          {"short int", Component::int16},
+                                                          {"signed short", Component::int16},
+                                                          {"signed short int", Component::int16},
+                                                          {"int16", Component::int16},
+                                                          {"int16_t", Component::int16},
+                                                          {"ushort", Component::uint16},
+                                                          {"unsigned short", Component::uint16},
+                                                          {"unsigned short int", Component::uint16},
+                                                          {"uint16", Component::uint16},
+                                                          {"uint16_t", Component::uint16},
+                                                          {"int", Component::int32},
+                                                          {"signed int", Component::int32},
+                                                          {"int32", Component::int32},
+                                                          {"int32_t", Component::int32},
+                                                          {"uint", Component::uint32},
+                                                          {"unsigned int", Component::uint32},
+                                                          {"uint32", Component::uint32},
+                                                          {"uint32_t", Component::uint32},
+                                                          {"longlong", Component::int64},
+                                                          {"long long", Component::int64},
+                                                          {"long long int", Component::int64},
+                                                          {"signed long long", Component::int64},
+                                                          {"signed long long int", Component::int64},
+                                                          {"int64", Component::int64},
+                                                          {"int64_t", Component::int64},
+                                                          {"ulonglong", Component::uint64},
+                                                          {"unsigned long long", Component::uint64},
+                                                          {"unsigned long long int", Component::uint64},
+                                                          {"uint64", Component::uint64},
+                                                          {"uint64_t", Component::uint64},
+                                                          {"float", Component::float32},
+                                                          {"double", Component::float64}};
   const auto found = kTypes.find(lower_case(type));
   if (found == kTypes.end()) {
-    throw FormatError("its type is " + in_quotes(type) + ", which holds no labels; convert it to an integer type");
+    throw FormatError("its type is " + in_quotes(type) +
+                      ", which holds no labels; convert it to an integer type");
   }
   return found->second;
 }
@@ -126,7 +147,8 @@ bool is_big_endian(const Header& header, const ImageHeader& image) {
   const auto found = header.fields.find("endian");
   if (found == header.fields.end()) {
     if (bytes_of(image.component) > 1 && image.encoding != Encoding::ascii) {
-      throw FormatError("its header has no field 'endian', so that its byte order is not known; repair its header");
+      throw FormatError(
+          "its header has no field 'endian', so that its byte order is not known; repair its header");
     }
     return false;
   }
@@ -199,10 +221,14 @@ std::vector<DataFile> data_files(const Header& header, const fs::path& path, Enc
 /// Fields that say how the voxels lie; a word near them would be a slip.
 bool is_known(const std::string& key) {
   static constexpr std::string_view kKnown[] = {
-      "dimension", "type",     "blocksize",  "encoding",  "endian",     "content", "min",          "max",
-      "oldmin",    "oldmax",   "datafile",   "lineskip",  "byteskip",   "number",  "sampleunits",  "sizes",
-      "spacings",  "axismins", "axismaxs",   "centerings", "labels",    "units",   "kinds",        "space",
-      "spacedimension", "spaceunits", "spaceorigin", "spacedirections", "measurementframe", "thicknesses"};
+      "dimension",        "type",       "blocksize",   "encoding",
+      "endian",           "content",    "min",         "max",
+      "oldmin",           "oldmax",     "datafile",    "lineskip",
+      "byteskip",         "number",     "sampleunits", "sizes",
+      "spacings",         "axismins",   "axismaxs",    "centerings",
+      "labels",           "units",      "kinds",       "space",
+      "spacedimension",   "spaceunits", "spaceorigin", "spacedirections",
+      "measurementframe", "thicknesses"};
   return std::find(std::begin(kKnown), std::end(kKnown), key) != std::end(kKnown);
 }
 

@@ -41,9 +41,10 @@ Space space_of_name(const std::string& text) {
   } else if (name == "scanner-xyz" || name == "3d-right-handed" || name == "3d-left-handed") {
     space.anatomical = false;
   } else if (name != "left-posterior-superior" && name != "lps") {
-    throw FormatError("its space is " + in_quotes(text) +
-                      "; known are right-anterior-superior, left-anterior-superior, left-posterior-superior (RAS, "
-                      "LAS, LPS), scanner-xyz, 3D-right-handed, 3D-left-handed");
+    throw FormatError(
+        "its space is " + in_quotes(text) +
+        "; known are right-anterior-superior, left-anterior-superior, left-posterior-superior (RAS, "
+        "LAS, LPS), scanner-xyz, 3D-right-handed, 3D-left-handed");
   }
   return space;
 }
@@ -63,13 +64,15 @@ std::optional<Space> space_of(const NrrdFields& fields, ImageHeader& image) {
   } else {
     const std::int64_t count = integers_of("space dimension", *dimension, 1)[0];
     if (count != 3 && count != 4) {
-      throw FormatError("its space dimension is " + *dimension + "; give an image in a space of 3 dimensions");
+      throw FormatError("its space dimension is " + *dimension +
+                        "; give an image in a space of 3 dimensions");
     }
     space.dimension = static_cast<std::size_t>(count);
     space.anatomical = false;
   }
   if (!space.anatomical) {
-    image.warnings.push_back("its space " + (name != nullptr ? in_quotes(*name) : std::string("without a name")) +
+    image.warnings.push_back("its space " +
+                             (name != nullptr ? in_quotes(*name) : std::string("without a name")) +
                              " says nothing of left and right; it is taken as left-posterior-superior");
   }
   return space;
@@ -81,7 +84,8 @@ std::vector<double> vector_of(const std::string& key, std::string_view text, std
   for (const std::string& word : words_of(text, ", \t()")) {
     const auto number = to_number(word);
     if (!number) {
-      throw FormatError("its header has " + key + " " + in_quotes(text) + ", which is no vector; repair its header");
+      throw FormatError("its header has " + key + " " + in_quotes(text) +
+                        ", which is no vector; repair its header");
     }
     numbers.push_back(*number);
   }
@@ -105,7 +109,8 @@ std::vector<Vector> directions_of(const std::string& text, std::size_t axes, std
     }
     const std::string_view word = rest.substr(0, vector ? end + 1 : end);
     if (!vector && lower_case(word) != "none") {
-      throw FormatError("its space directions have " + in_quotes(word) + ", which is no vector; repair its header");
+      throw FormatError("its space directions have " + in_quotes(word) +
+                        ", which is no vector; repair its header");
     }
     directions.push_back(vector ? Vector(vector_of("space directions", word, dimension)) : std::nullopt);
     rest = trimmed(rest.substr(word.size()));
@@ -136,14 +141,16 @@ std::vector<double> units_mm(const std::string* text, std::size_t count, ImageHe
   std::vector<double> mm(count, 1);
   const std::vector<std::string> words = text == nullptr ? std::vector<std::string>{} : quoted_words(*text);
   if (text != nullptr && words.size() != count) {
-    throw FormatError("its header has units " + in_quotes(*text) + ", which are " + std::to_string(words.size()) +
-                      " and not " + std::to_string(count) + "; repair its header");
+    throw FormatError("its header has units " + in_quotes(*text) + ", which are " +
+                      std::to_string(words.size()) + " and not " + std::to_string(count) +
+                      "; repair its header");
   }
   for (std::size_t n = 0; n < words.size(); ++n) {
     const std::string word = lower_case(words[n]);
     const auto length = millimetres_of(word);
     if (!length && !word.empty() && word != "none" && word != "???" && n < 3) {
-      image.warnings.push_back("its unit " + in_quotes(words[n]) + " is no length that is known; mm are taken");
+      image.warnings.push_back("its unit " + in_quotes(words[n]) +
+                               " is no length that is known; mm are taken");
     }
     mm[n] = length.value_or(1);
   }
@@ -151,8 +158,8 @@ std::vector<double> units_mm(const std::string* text, std::size_t count, ImageHe
 }
 
 /// The numbers of the three axes of space; the others must have one sample.
-std::array<std::size_t, 3> space_axes(const std::vector<bool>& in_space, const std::vector<std::int64_t>& sizes,
-                                      const NrrdFields& fields) {
+std::array<std::size_t, 3> space_axes(const std::vector<bool>& in_space,
+                                      const std::vector<std::int64_t>& sizes, const NrrdFields& fields) {
   std::array<std::size_t, 3> axes{};
   std::size_t count = 0;
   const auto kinds = words_of(find(fields, "kinds") != nullptr ? *find(fields, "kinds") : "");
@@ -165,13 +172,14 @@ std::array<std::size_t, 3> space_axes(const std::vector<bool>& in_space, const s
       axes[count++] = axis;
     } else if (sizes[axis] > 1) {
       const std::string kind = axis < kinds.size() ? lower_case(kinds[axis]) : "";
-      throw FormatError(kind == "list" || kind.empty() || kind == "none" || kind == "???"
-                            ? "it has " + std::to_string(sizes[axis]) +
-                                  " components per voxel (layers of segments that overlap, as 3D Slicer stores them, or "
-                                  "a vector image); export one label map of it"
-                            : "it has " + std::to_string(sizes[axis]) +
-                                  " components per voxel (a colour or vector image, kind " + kind +
-                                  "); give a label image with one value per voxel");
+      throw FormatError(
+          kind == "list" || kind.empty() || kind == "none" || kind == "???"
+              ? "it has " + std::to_string(sizes[axis]) +
+                    " components per voxel (layers of segments that overlap, as 3D Slicer stores them, or "
+                    "a vector image); export one label map of it"
+              : "it has " + std::to_string(sizes[axis]) +
+                    " components per voxel (a colour or vector image, kind " + kind +
+                    "); give a label image with one value per voxel");
     }
   }
   if (count < 3) {
@@ -186,8 +194,8 @@ std::vector<bool> domain_axes(const NrrdFields& fields, std::size_t count) {
   const std::string* const text = find(fields, "kinds");
   const auto kinds = words_of(text != nullptr ? *text : "");
   if (text != nullptr && kinds.size() != count) {
-    throw FormatError("its kinds are " + std::to_string(kinds.size()) + ", but it has " + std::to_string(count) +
-                      " axes; repair its header");
+    throw FormatError("its kinds are " + std::to_string(kinds.size()) + ", but it has " +
+                      std::to_string(count) + " axes; repair its header");
   }
   for (std::size_t axis = 0; axis < kinds.size(); ++axis) {
     const std::string kind = lower_case(kinds[axis]);

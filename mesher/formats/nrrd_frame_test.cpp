@@ -14,7 +14,7 @@ TEST_F(NrrdFrame, SpacesInEverySpelling) {
   const struct {
     const char* name;
     double x, y;
-  } spaces[] = {{"left-posterior-superior", 1, 1},   {"LPS", 1, 1},  {"lps", 1, 1},
+  } spaces[] = {{"left-posterior-superior", 1, 1},   {"LPS", 1, 1},   {"lps", 1, 1},
                 {"right-anterior-superior", -1, -1}, {"RAS", -1, -1}, {"Right-Anterior-Superior", -1, -1},
                 {"left-anterior-superior", 1, -1},   {"LAS", 1, -1}};
   for (const auto& [name, x, y] : spaces) {
@@ -26,7 +26,8 @@ TEST_F(NrrdFrame, SpacesInEverySpelling) {
     EXPECT_TRUE(header.warnings.empty()) << name;
   }
   EXPECT_EQ(header_of("b.nrrd", nrrd("space: 3D-right-handed\n" + kDirections)).warnings.size(), 1U);
-  expect_refusal("c.nrrd", nrrd("space: left-up-superior\n" + kDirections), "its space is 'left-up-superior'");
+  expect_refusal("c.nrrd", nrrd("space: left-up-superior\n" + kDirections),
+                 "its space is 'left-up-superior'");
 }
 
 TEST_F(NrrdFrame, UnitsScaleEverything) {
@@ -36,7 +37,8 @@ TEST_F(NrrdFrame, UnitsScaleEverything) {
   EXPECT_DOUBLE_EQ(header.origin_mm[2], 0.003);
   const ImageHeader plain = header_of("b.nrrd", nrrd("spacings: 1 2 3\nunits: \"cm\" \"cm\" \"cm\"\n"));
   EXPECT_EQ(plain.spacing_mm, (Triple{10, 20, 30}));
-  EXPECT_EQ(header_of("c.nrrd", nrrd("space: LPS\nspace units: \"mm\" \"mm\" \"ells\"\n" + kDirections)).warnings.size(),
+  EXPECT_EQ(header_of("c.nrrd", nrrd("space: LPS\nspace units: \"mm\" \"mm\" \"ells\"\n" + kDirections))
+                .warnings.size(),
             1U);
 }
 
@@ -52,12 +54,16 @@ TEST_F(NrrdFrame, SpacingsAndMinsOfCellsAndNodes) {
 TEST_F(NrrdFrame, AxesOutsideSpace) {
   const std::string voxels = nrrd("").substr(nrrd("").size() - 24);
   const auto four = [&](const std::string& sizes, const std::string& lines) {
-    return "NRRD0004\ntype: uchar\ndimension: 4\nsizes: " + sizes + "\nencoding: raw\n" + lines + "\n" + voxels;
+    return "NRRD0004\ntype: uchar\ndimension: 4\nsizes: " + sizes + "\nencoding: raw\n" + lines + "\n" +
+           voxels;
   };
-  const std::string frame = "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
+  const std::string frame =
+      "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
   EXPECT_EQ(header_of("a.nrrd", four("1 2 3 4", frame)).size, (std::array<std::size_t, 3>{2, 3, 4}));
-  expect_refusal("b.nrrd", four("2 2 2 3", frame + "kinds: list domain domain domain\n"), "layers of segments");
-  expect_refusal("c.nrrd", four("3 2 2 2", frame + "kinds: RGB-color domain domain domain\n"), "3 components");
+  expect_refusal("b.nrrd", four("2 2 2 3", frame + "kinds: list domain domain domain\n"),
+                 "layers of segments");
+  expect_refusal("c.nrrd", four("3 2 2 2", frame + "kinds: RGB-color domain domain domain\n"),
+                 "3 components");
   expect_refusal("d.nrrd", four("2 2 2 3", ""), "3 volumes");
 }
 
@@ -73,7 +79,8 @@ TEST_F(NrrdFrame, WhatIsNoFrameIsRefused) {
   expect_refusal("h.nrrd", nrrd(space + "(1,0) (0,1,0) (0,0,1)\n"), "has 2 numbers");
   expect_refusal("i.nrrd", nrrd(space + "(1,0,0) (0,1,0)\n"), "are 2, but it has 3 axes");
   expect_refusal("j.nrrd", nrrd(space + "(1,0,0) (0,1,0) none\n"), "components per voxel");
-  expect_refusal("k.nrrd", nrrd("space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (nan,0,0)\n"),
+  expect_refusal("k.nrrd",
+                 nrrd("space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (nan,0,0)\n"),
                  "origin");
   expect_refusal("l.nrrd", nrrd("space directions: (1,0,0) (0,1,0) (0,0,1)\n"), "no 'space'");
 }

@@ -30,13 +30,18 @@ TEST_F(Nrrd, EncodingsAndDetachedFiles) {
 TEST_F(Nrrd, DamageIsNamed) {
   expect_refusal("long.nrrd", "NRRD0004\nspace: " + std::string(70000, 'x') + "\n\n", "65536 characters");
   expect_refusal("space.nrrd", nrrd("space: " + std::string(4000, 'x') + "\n"), "its space is 'xxx");
-  expect_refusal("type.nrrd", "NRRD0004\ntype: block\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\na", "'block'");
+  expect_refusal("type.nrrd", "NRRD0004\ntype: block\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\na",
+                 "'block'");
   expect_refusal("twice.nrrd", nrrd("type: uchar\n"), "twice");
   expect_refusal("none.nrrd", "NRRD0004\ntype: uchar\nencoding: raw\n\n", "no field 'dimension'");
-  expect_refusal("cut.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n", "does not end");
-  expect_refusal("order.nrrd", "NRRD0004\ntype: short\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\nab", "endian");
-  expect_refusal("code.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: zstd\n\na", "'zstd'");
-  expect_refusal("sizes.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1.5 1\nencoding: raw\n\na", "'1.5'");
+  expect_refusal("cut.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n",
+                 "does not end");
+  expect_refusal("order.nrrd", "NRRD0004\ntype: short\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\nab",
+                 "endian");
+  expect_refusal("code.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: zstd\n\na",
+                 "'zstd'");
+  expect_refusal("sizes.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1.5 1\nencoding: raw\n\na",
+                 "'1.5'");
 }
 
 }  // namespace

@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostHeader = std::size_t{1} << 20U;
-constexpr const char* kKnown =
-    "give NIfTI, NRRD, MHA/MHD, Analyze, INRIMAGE, GIPL, MGH/MGZ or MIF";
+constexpr const char* kKnown = "give NIfTI, NRRD, MHA/MHD, Analyze, INRIMAGE, GIPL, MGH/MGZ or MIF";
 
 /// What else a file may be, by its first bytes.
 struct Signature {
@@ -45,23 +44,25 @@ constexpr Signature kSignatures[] = {
 
 [[noreturn]] void refuse_unknown(std::string_view head, std::size_t least) {
   if (head.size() >= 132 && head.substr(128, 4) == "DICM") {
-    throw FormatError("it is DICOM; convert it, a segmentation by dcmqi's segimage2itkimage, to NIfTI or NRRD");
+    throw FormatError(
+        "it is DICOM; convert it, a segmentation by dcmqi's segimage2itkimage, to NIfTI or NRRD");
   }
   for (const Signature& signature : kSignatures) {
     if (head.starts_with(signature.bytes)) {
       throw FormatError(std::string("it is ") + signature.what);
     }
   }
-  throw FormatError(head.empty()         ? "the file is empty; copy it again"
+  throw FormatError(head.empty()          ? "the file is empty; copy it again"
                     : head.size() < least ? "the file has " + std::to_string(head.size()) +
-                                               " bytes, fewer than any header; copy it again"
-                                         : std::string("not an image format that is known; ") + kKnown);
+                                                " bytes, fewer than any header; copy it again"
+                                          : std::string("not an image format that is known; ") + kKnown);
 }
 
 ImageHeader header_of(std::string_view head, const fs::path& path, Encoding encoding) {
   if (is_nrrd(head) || is_metaimage(head)) {
     if (encoding != Encoding::raw) {
-      throw FormatError("it is an NRRD or MetaImage file compressed as a whole; decompress it (gunzip, bunzip2)");
+      throw FormatError(
+          "it is an NRRD or MetaImage file compressed as a whole; decompress it (gunzip, bunzip2)");
     }
     return is_nrrd(head) ? read_nrrd_header(head, path) : read_metaimage_header(head, path);
   }

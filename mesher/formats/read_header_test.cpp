@@ -24,7 +24,8 @@ TEST_F(ReadHeader, NamesWhatItDoesNotRead) {
                {std::string(128, '\0') + "DICM" + std::string(100, '\0'), "DICOM"},
                {"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "Git LFS"},
                {packed(nrrd("")), "compressed as a whole"},
-               {packed("nothing that is known, but long enough to be a header of something or other"), "not an image"}};
+               {packed("nothing that is known, but long enough to be a header of something or other"),
+                "not an image"}};
   for (const auto& [bytes, words] : files) {
     expect_refusal("file.nii", bytes, words);
   }

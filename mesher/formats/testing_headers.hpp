@@ -63,7 +63,9 @@ class Headers : public ::testing::Test {
 /// A NIfTI-1 header of 2 x 3 x 4 bytes in front of these.
 inline std::string nifti(bool big_endian = false) {
   std::string bytes(352 + 24, '\0');
-  const auto put16 = [&](std::size_t at, int value) { put(bytes, at, static_cast<std::int16_t>(value), big_endian); };
+  const auto put16 = [&](std::size_t at, int value) {
+    put(bytes, at, static_cast<std::int16_t>(value), big_endian);
+  };
   put(bytes, 0, std::int32_t{348}, big_endian);
   put16(40, 3);
   for (int axis = 0; axis < 3; ++axis) {

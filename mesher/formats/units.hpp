@@ -6,8 +6,8 @@
 
 namespace cbc3d::formats {
 
-/// Millimetres of a unit: "mm", "um", "micrometer", "micron", "cm", "m", "nm", "inch" and their spellings, letter
-/// case ignored; none for other words.
+/// Millimetres of a unit: "mm", "um", "micrometer", "micron", "cm", "m", "nm", "inch" and their spellings,
+/// letter case ignored; none for other words.
 std::optional<double> millimetres_of(std::string_view unit);
 
 }  // namespace cbc3d::formats

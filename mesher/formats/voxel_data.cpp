@@ -39,8 +39,8 @@ std::size_t bytes_per_file(const ImageHeader& header) {
 }
 
 [[noreturn]] void refuse_length(std::uint64_t promised, std::uint64_t found) {
-  throw FormatError("its header promises " + std::to_string(promised) + " bytes of voxels, but the file has " +
-                    std::to_string(found) +
+  throw FormatError("its header promises " + std::to_string(promised) +
+                    " bytes of voxels, but the file has " + std::to_string(found) +
                     (found < promised ? "; it is truncated, copy it again"
                                       : "; its header or the file is damaged, write it again"));
 }
@@ -59,7 +59,8 @@ void require_end(ImageHeader& header, ByteStream& stream, std::uint64_t promised
     refuse_length(promised, promised + more);
   }
   if (more > 0) {
-    header.warnings.push_back(std::to_string(more) + " zero bytes follow the last voxel that its header promises");
+    header.warnings.push_back(std::to_string(more) +
+                              " zero bytes follow the last voxel that its header promises");
   }
 }
 
@@ -99,7 +100,8 @@ std::uint64_t first_byte(const DataFile& file, std::uint64_t promised) {
   return file.skipped_bytes > length ? length : begin + file.skipped_bytes;
 }
 
-std::unique_ptr<ByteStream> open_voxels(const ImageHeader& header, const DataFile& file, std::uint64_t promised) {
+std::unique_ptr<ByteStream> open_voxels(const ImageHeader& header, const DataFile& file,
+                                        std::uint64_t promised) {
   if (header.encoding == Encoding::gzip || header.encoding == Encoding::bzip2) {
     auto stream = open_stream(file.path, begin_of(file), file.packed_bytes, header.encoding);
     skip(*stream, file.skipped_bytes);

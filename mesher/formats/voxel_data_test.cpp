@@ -24,8 +24,8 @@ TEST_F(VoxelData, EveryTruncationIsRefused) {
 }
 
 TEST_F(VoxelData, WhatFollowsTheLastVoxelIsRefusedUnlessItIsZeros) {
-  for (const std::string& whole : {nifti(), packed(nifti() + "x"), packed(nifti()) + packed("more"), metaimage("") + "x",
-                                   nrrd("") + "garbage"}) {
+  for (const std::string& whole : {nifti(), packed(nifti() + "x"), packed(nifti()) + packed("more"),
+                                   metaimage("") + "x", nrrd("") + "garbage"}) {
     const std::string file = whole == nifti() ? whole + "x" : whole;
     EXPECT_NE(refusal_of("more", file), "");
   }
@@ -78,10 +78,11 @@ TEST_F(VoxelData, APromiseOfGigabytesIsRefusedBeforeMemoryIsAskedFor) {
   for (const char* encoding : {"raw", "gzip", "ascii", "hex"}) {
     expect_refusal("huge.nrrd", head + encoding + "\n\nabc", "promises 10000000000000 bytes");
   }
-  expect_refusal("endless.nrrd",
-                 "NRRD0004\ntype: double\ndimension: 3\nsizes: 2000000000 2000000000 2000000000\nencoding: raw\n"
-                 "endian: little\n\n",
-                 "more voxels than can be counted");
+  expect_refusal(
+      "endless.nrrd",
+      "NRRD0004\ntype: double\ndimension: 3\nsizes: 2000000000 2000000000 2000000000\nencoding: raw\n"
+      "endian: little\n\n",
+      "more voxels than can be counted");
 }
 
 }  // namespace
