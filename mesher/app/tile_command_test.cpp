@@ -4,8 +4,12 @@
 #include <itkPNGImageIO.h>
 #include <itkTIFFImageIO.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
@@ -128,6 +132,8 @@ TEST_F(Tile, OneLineForWhatIsWrongAndNoFile) {
   }
 }
 
+constexpr int kPalette = 3;  // of TIFF's photometric interpretations
+
 /// A TIFF file of pages of 3 x 2 values, each value its number in the file plus one.
 std::string tiff(int pages, int bits, int photometric, int format) {
   std::string bytes("II*\0\0\0\0\0", 8);
@@ -145,24 +151,32 @@ std::string tiff(int pages, int bits, int photometric, int format) {
       put(strip + v * each, static_cast<std::uint32_t>(6 * static_cast<std::size_t>(page) + v + 1), each);
     }
     put(link, static_cast<std::uint32_t>(bytes.size()), 4);
-    const std::uint32_t entries[][2] = {{256, 3},
-                                        {257, 2},
-                                        {258, static_cast<std::uint32_t>(bits)},
-                                        {259, 1},
-                                        {262, static_cast<std::uint32_t>(photometric)},
-                                        {273, strip},
-                                        {277, 1},
-                                        {278, 2},
-                                        {279, static_cast<std::uint32_t>(6 * each)},
-                                        {339, static_cast<std::uint32_t>(format)}};
+    const auto map = static_cast<std::uint32_t>(bytes.size());
+    bytes.resize(bytes.size() + (photometric == kPalette ? 3 * 2 * 256 : 0), '\1');
+    if (photometric == kPalette) {
+      put(link, static_cast<std::uint32_t>(bytes.size()), 4);
+    }
+    std::vector<std::array<std::uint32_t, 4>> entries = {{256, 4, 1, 3},
+                                                         {257, 4, 1, 2},
+                                                         {258, 4, 1, static_cast<std::uint32_t>(bits)},
+                                                         {259, 4, 1, 1},
+                                                         {262, 4, 1, static_cast<std::uint32_t>(photometric)},
+                                                         {273, 4, 1, strip},
+                                                         {277, 4, 1, 1},
+                                                         {278, 4, 1, 2},
+                                                         {279, 4, 1, static_cast<std::uint32_t>(6 * each)},
+                                                         {339, 4, 1, static_cast<std::uint32_t>(format)}};
+    if (photometric == kPalette) {
+      entries.insert(entries.end() - 1, {320, 3, 3 * 256, map});
+    }
     std::size_t at = bytes.size();
-    bytes.resize(at + 2 + 12 * std::size(entries) + 4, '\0');
-    put(at, static_cast<std::uint32_t>(std::size(entries)), 2);
+    bytes.resize(at + 2 + 12 * entries.size() + 4, '\0');
+    put(at, static_cast<std::uint32_t>(entries.size()), 2);
     at += 2;
-    for (const auto& [tag, value] : entries) {
+    for (const auto& [tag, type, count, value] : entries) {
       put(at, tag, 2);
-      put(at + 2, 4, 2);  // 32-bit integers
-      put(at + 4, 1, 4);
+      put(at + 2, type, 2);  // 3 and 4: integers of 16 and 32 bits
+      put(at + 4, count, 4);
       put(at + 8, value, 4);
       at += 12;
     }
@@ -192,7 +206,7 @@ TEST_F(Tile, TiffThatHoldsNoGreyValuesIsNamed) {
     std::ofstream(folder_ / "bad.tif", std::ios::binary) << bytes;
     expect_refusal("tile " + at("bad.tif") + " --spacing 1,1,1 --out " + at("bad.nrrd"), words, "bad.nrrd");
   };
-  refuse(tiff(1, 8, 3, 1), "palette");
+  refuse(tiff(1, 8, kPalette, 1), "palette");
   refuse(tiff(1, 8, 0, 1), "inverted");
   refuse(tiff(1, 32, 1, 6), "32 bits (sample format 6)");
   refuse(tiff(2, 8, 1, 1).substr(0, 12), "broken");
