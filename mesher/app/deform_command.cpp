@@ -59,9 +59,10 @@ void write_report(const DeformCommand& command, const ImageFrame& frame, const M
 
 /// The mesh in the image's frame. Throws InputError where they do not lie together.
 MaterialMesh read_material_mesh(DeformCommand& command, const LabelImage& image) {
-  Mesh mesh = read_mesh(command.mesh);
+  const Mesh mesh = read_mesh(command.mesh);
   require_writable_labels(labels_of(mesh), command.out);
   try {
+    MaterialMesh local = to_material_mesh(mesh, image);  // labels that the image lacks are named first
     const Placement placement = placement_of(mesh, image);
     if (placement.elsewhere) {
       throw InputError(placement.finding);
@@ -69,7 +70,7 @@ MaterialMesh read_material_mesh(DeformCommand& command, const LabelImage& image)
     if (!placement.finding.empty()) {
       command.input.warnings.push_back(placement.finding);
     }
-    return to_material_mesh(std::move(mesh), image);
+    return local;
   } catch (const InputError& error) {
     throw InputError("'" + command.mesh + "': " + error.what());
   }

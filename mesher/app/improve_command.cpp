@@ -79,8 +79,8 @@ Subject read(ImproveCommand& command) {
     if (command.image.empty()) {
       subject.mesh = number_labels(std::move(mesh), subject.image.labels);
     } else {
+      subject.mesh = to_material_mesh(mesh, subject.image);  // labels that the image lacks are named first
       require_placement(mesh, subject);
-      subject.mesh = to_material_mesh(std::move(mesh), subject.image);
     }
     subject.orient = orient_tets(subject.mesh);
     if (subject.mesh.tets.empty()) {
