@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "mesher/core/mesh_placement.hpp"
 #include "metrics/cells.hpp"
 #include "metrics/element_quality.hpp"
 #include "metrics/element_shape.hpp"
@@ -68,6 +69,9 @@ json evaluate(const Mesh& mesh, const LabelImage& image, const EvaluateOptions& 
   const Fidelity near = fidelity(view, image, surface, how, progress);
   result["fidelity"] = to_json(near, how);
   result["faults"] = describe_faults(view, quality, connected, crossing, in_image, image, near.labels);
+  if (const Placement placement = placement_of(mesh, image); !placement.finding.empty()) {
+    result["faults"].insert(result["faults"].begin(), placement.finding);
+  }
   result["summary"] = summary({view, image.frame, quality, connected, difference, crossing, near});
   if (options.shapes) {
     progress.step("true shape", 0.97);

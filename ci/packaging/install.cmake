@@ -71,5 +71,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For those who compile against the libraries, and for the pictures of a run without a screen.
 set(CPACK_DEBIAN_MAIN_PACKAGE_SUGGESTS
-  "cbc3d-baselines, g++, cmake, libinsighttoolkit5-dev, libvtk9-dev, zlib1g-dev, libdeflate-dev, xvfb, xauth, libgl1-mesa-dri, librsvg2-bin")
+  "cbc3d-baselines, g++, cmake, libinsighttoolkit5-dev, libvtk9-dev, zlib1g-dev, libbz2-dev, libdeflate-dev, xvfb, xauth, libgl1-mesa-dri, librsvg2-bin")
 include(CPack)

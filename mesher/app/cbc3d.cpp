@@ -7,6 +7,7 @@
 #include "mesher/app/deform_command.hpp"
 #include "mesher/app/flag_names.hpp"
 #include "mesher/app/improve_command.hpp"
+#include "mesher/app/info_command.hpp"
 #include "mesher/app/mesh_command.hpp"
 #include "mesher/app/segment_command.hpp"
 #include "mesher/app/tile_command.hpp"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
     cbc3d::add_clean_command(app, exit_code);
     cbc3d::add_deform_command(app, exit_code);
     cbc3d::add_improve_command(app, exit_code);
+    cbc3d::add_info_command(app, exit_code);
     cbc3d::add_segment_command(app, exit_code);
     cbc3d::add_tile_command(app, exit_code);
     app.parse(argc, argv);

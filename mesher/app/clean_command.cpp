@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "mesher/app/image_input.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/subcommand.hpp"
@@ -19,25 +20,30 @@ struct CleanCommand {
   std::string out;
   std::string preset = preset_names().front();
   OptionSettings settings;
+  ImageInput input;
   CommonOptions common;
 };
 
-void run(const CleanCommand& command) {
-  require_writable(command.out);
+void run(CleanCommand& command) {
+  require_writable_image_path(command.out);
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.image, 0);
-  LabelImage image = read_label_image(command.image);
+  LabelImage image = read_input_image(command.image, command.input);
   MeshImageOptions options = preset_options(command.preset, image.frame, false);
   apply_settings(command.settings, options);
   progress.step("cleaning", 0.3);
   const CleanReport report = clean_image(image, options.clean, false);
   progress.step("writing " + command.out, 0.7);
   write_label_image(image, command.out);
-  const nlohmann::json json = cleaning_json(report, image.frame);
+  nlohmann::json json = cleaning_json(report, image.frame);
+  json["warnings"] = command.input.warnings;
   if (!command.common.report_file.empty()) {
     write_text_file(command.common.report_file, json.dump(2) + "\n");
   }
   progress.done();
+  for (const std::string& warning : command.input.warnings) {
+    progress.line("warning: " + warning, true);
+  }
   for (const LabelChange& change : report.labels) {
     if (change.voxels_before != change.voxels_after) {
       progress.line("label " + std::to_string(change.label) + ": " + std::to_string(change.voxels_before) +
@@ -55,13 +61,14 @@ void run(const CleanCommand& command) {
 void add_clean_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<CleanCommand>();
   CLI::App* clean = app.add_subcommand("clean", "the image pre-processing alone");
-  clean->add_option("image", command->image, "label image: NIfTI, NRRD, MHA/MHD or INRIMAGE")->required();
+  clean->add_option("image", command->image, kImageFormats)->required();
   clean->add_option("--out", command->out, "label image: .nii, .nii.gz, .nrrd or .mha")->required();
   clean
       ->add_option("--preset", command->preset,
                    "whose pre-processing: quality or paper [" + command->preset + "]")
       ->check(CLI::IsMember(preset_names()));
   add_option_flags(*clean, OptionGroup::cleaning, preset_columns(), command->settings);
+  add_image_options(*clean, command->input);
   add_report_option(*clean, command->common, "JSON file with what was changed");
   complete_command(*clean, command->common, exit_code, [command] { run(*command); });
 }

@@ -3,14 +3,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "mesher/app/image_input.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/option_json.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/pipeline/presets.hpp"
@@ -22,6 +23,7 @@ struct DeformCommand {
   std::string mesh, image, out;
   std::string preset = preset_names().front();
   OptionSettings settings;
+  ImageInput input;
   CommonOptions common;
 };
 
@@ -50,17 +52,37 @@ void write_report(const DeformCommand& command, const ImageFrame& frame, const M
                                {"counts", counts_json(mesh)},
                                {"mixed_elements", options.mixed ? mix_json(mix) : nlohmann::json()},
                                {"deformation", deformation_json(deform)},
+                               {"warnings", command.input.warnings},
                                {"peak_rss_bytes", process_peak_rss_bytes()}};
   write_text_file(command.common.report_file, json.dump(2) + "\n");
 }
 
-void run(const DeformCommand& command) {
+/// The mesh in the image's frame. Throws InputError where they do not lie together.
+MaterialMesh read_material_mesh(DeformCommand& command, const LabelImage& image) {
+  const Mesh mesh = read_mesh(command.mesh);
+  require_writable_labels(labels_of(mesh), command.out);
+  try {
+    MaterialMesh local = to_material_mesh(mesh, image);  // labels that the image lacks are named first
+    const Placement placement = placement_of(mesh, image);
+    if (placement.elsewhere) {
+      throw InputError(placement.finding);
+    }
+    if (!placement.finding.empty()) {
+      command.input.warnings.push_back(placement.finding);
+    }
+    return local;
+  } catch (const InputError& error) {
+    throw InputError("'" + command.mesh + "': " + error.what());
+  }
+}
+
+void run(DeformCommand& command) {
   require_writable_mesh_path(command.out);
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.mesh, 0);
-  const LabelImage image = read_label_image(command.image);
+  const LabelImage image = read_input_image(command.image, command.input);
   const MeshImageOptions options = options_of(command, image);
-  MaterialMesh mesh = to_material_mesh(read_mesh(command.mesh), image);
+  MaterialMesh mesh = read_material_mesh(command, image);
   MixReport mix;
   if (options.mixed) {
     progress.step("mixed elements", 0.1);
@@ -77,6 +99,9 @@ void run(const DeformCommand& command) {
     write_report(command, image.frame, options, mix, deform, out);
   }
   progress.done();
+  for (const std::string& warning : command.input.warnings) {
+    progress.line("warning: " + warning, true);
+  }
   if (deform.stopped_early) {
     progress.line("warning: the deformation stopped after " + std::to_string(deform.iterations.size()) +
                       " iterations: elements stay below the minimum quality; --on-failure recover goes on",
@@ -102,6 +127,7 @@ void add_deform_command(CLI::App& app, int& exit_code) {
   for (const OptionGroup group : {OptionGroup::mixed, OptionGroup::deformation}) {
     add_option_flags(*deform, group, preset_columns(true), command->settings);
   }
+  add_image_options(*deform, command->input);
   add_report_option(*deform, command->common, "JSON file with options, counts and per-iteration figures");
   complete_command(*deform, command->common, exit_code, [command] { run(*command); });
 }

@@ -13,10 +13,13 @@ namespace {
 using Replacement = std::pair<std::string, std::string>;
 
 /// What is no option's name: two ordinary words, a switch that is named by its effect, and options of
-/// `segment`.
+/// `segment` and of the reading of images.
 const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifold-voxels"},
                                            {"connectivity vertex", "--connectivity vertex"},
-                                           {"edge_gradient and contrast", "--edge-gradient and --contrast"}};
+                                           {"edge_gradient and contrast", "--edge-gradient and --contrast"},
+                                           {"accept_shear", "--accept-shear"},
+                                           {"round_values", "--round"},
+                                           {"many_labels", "--many-labels"}};
 
 /// The fields of the options: their names with underscores, with a unit or without. Names of one word are
 /// left alone, for they are ordinary words too.

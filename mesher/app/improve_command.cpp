@@ -6,13 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "mesher/app/image_input.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/domain/image_domain.hpp"
@@ -33,6 +34,7 @@ struct ImproveCommand {
   OptionSettings settings;
   double max_deviation_mm = 0;
   bool decimate = false;
+  ImageInput input;
   CommonOptions common;
 };
 
@@ -53,16 +55,32 @@ std::string text_of(const char* format, double a, double b) {
   return text;
 }
 
-Subject read(const ImproveCommand& command) {
+/// A mesh that lies elsewhere would be fitted to boundaries that are not its own.
+void require_placement(const Mesh& mesh, Subject& subject) {
+  const Placement placement = placement_of(mesh, subject.image);
+  if (placement.elsewhere) {
+    throw InputError(placement.finding);
+  }
+  if (!placement.finding.empty()) {
+    subject.warnings.push_back(placement.finding);
+  }
+}
+
+Subject read(ImproveCommand& command) {
   Subject subject;
   Mesh mesh = read_mesh(command.mesh);
+  require_writable_labels(labels_of(mesh), command.out);
+  if (!command.image.empty()) {
+    subject.image = read_input_image(command.image, command.input);
+    subject.warnings = command.input.warnings;
+  }
   try {
     require_improvable(mesh);
     if (command.image.empty()) {
       subject.mesh = number_labels(std::move(mesh), subject.image.labels);
     } else {
-      subject.image = read_label_image(command.image);
-      subject.mesh = to_material_mesh(std::move(mesh), subject.image);
+      subject.mesh = to_material_mesh(mesh, subject.image);  // labels that the image lacks are named first
+      require_placement(mesh, subject);
     }
     subject.orient = orient_tets(subject.mesh);
     if (subject.mesh.tets.empty()) {
@@ -171,7 +189,7 @@ nlohmann::json report_json(const ImproveCommand& command, const Subject& subject
           {"peak_rss_bytes", process_peak_rss_bytes()}};
 }
 
-void run(const ImproveCommand& command) {
+void run(ImproveCommand& command) {
   require_writable_mesh_path(command.out);
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.mesh, 0);
@@ -226,6 +244,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
       "--decimate,!--no-decimation", command->decimate,
       "fit the surfaces to the boundary and thin the mesh out as well; without it what is below the goal is "
       "repaired and all else is left as it is");
+  add_image_options(*improve, command->input);
   add_report_option(*improve, command->common, "JSON file with counts, angles and volumes before and after");
   complete_command(*improve, command->common, exit_code, [command] { run(*command); });
 }

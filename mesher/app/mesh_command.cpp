@@ -6,13 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "mesher/app/flag_names.hpp"
+#include "mesher/app/image_input.hpp"
+#include "mesher/app/mesh_findings.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/option_json.hpp"
 #include "mesher/app/subcommand.hpp"
+#include "mesher/app/warning_groups.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
@@ -27,6 +29,7 @@ struct MeshCommand {
   std::string preset = preset_names().front();
   OptionSettings settings;
   std::string dump_stages;
+  ImageInput input;
   CommonOptions common;
 };
 
@@ -46,12 +49,13 @@ MeshImageOptions options_of(const MeshCommand& command, const LabelImage& image)
   return options;
 }
 
-void run(const MeshCommand& command) {
+void run(MeshCommand& command) {
   require_writable_mesh_path(command.out);
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.image, 0);
   const Stopwatch reading;
-  LabelImage image = read_label_image(command.image);
+  LabelImage image = read_input_image(command.image, command.input);
+  require_writable_labels({image.labels.begin() + 1, image.labels.end()}, command.out);
   RunDescription description{.preset = command.preset,
                              .threads = command.common.threads,
                              .options = options_of(command, image),
@@ -59,6 +63,11 @@ void run(const MeshCommand& command) {
                              .reading_seconds = reading.seconds()};
   MeshImageReport report;
   const Mesh mesh = mesh_image(std::move(image), description.options, progress, report);
+  report.warnings.insert(report.warnings.begin(), command.input.warnings.begin(),
+                         command.input.warnings.end());
+  for (std::string& finding : mesh_findings(mesh, report, description.frame)) {
+    report.warnings.push_back(std::move(finding));
+  }
   for (std::string& warning : report.warnings) {
     warning = with_flags(warning);
   }
@@ -74,13 +83,13 @@ void run(const MeshCommand& command) {
     write_text_file(command.common.report_file, report_json(description, report, mesh).dump(2) + "\n");
   }
   progress.done();
-  for (const std::string& warning : report.warnings) {
+  for (const std::string& warning : grouped_warnings(report.warnings)) {
     progress.line("warning: " + warning, true);
   }
   progress.line("wrote " + command.out + ": " + counts_text(mesh));
 }
 
-void run_reporting(const MeshCommand& command) {
+void run_reporting(MeshCommand& command) {
   try {
     run(command);
   } catch (const std::bad_alloc&) {
@@ -102,7 +111,7 @@ void print_description() {
 void add_mesh_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<MeshCommand>();
   CLI::App* mesh = app.add_subcommand("mesh", "mesh a segmented image");
-  mesh->add_option("image", command->image, "label image: NIfTI, NRRD, MHA/MHD or INRIMAGE")->required();
+  mesh->add_option("image", command->image, kImageFormats)->required();
   mesh->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
   mesh->add_option("--preset", command->preset,
                    "quality: our best; paper: the published method [" + command->preset + "]")
@@ -111,6 +120,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
                                   OptionGroup::improvement, OptionGroup::deformation}) {
     add_option_flags(*mesh, group, preset_columns(), command->settings);
   }
+  add_image_options(*mesh, command->input);
   add_report_option(*mesh, command->common, "JSON file with options, counts, fidelity, seconds and warnings");
   mesh->add_option("--dump-stages", command->dump_stages, "folder for the mesh after each stage")
       ->type_name("DIR");

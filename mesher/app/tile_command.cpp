@@ -2,7 +2,6 @@
 
 #include <itkBMPImageIO.h>
 #include <itkPNGImageIO.h>
-#include <itkTIFFImageIO.h>
 
 #include <algorithm>
 #include <cstring>
@@ -11,6 +10,7 @@
 #include <sstream>
 
 #include "mesher/app/subcommand.hpp"
+#include "mesher/app/tiff_pages.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/terminal_progress.hpp"
@@ -45,8 +45,7 @@ itk::ImageIOBase::Pointer reader_of(const std::string& file) {
     fail(file, "no such file; check its name");
   }
   const std::vector<itk::ImageIOBase::Pointer> formats{itk::PNGImageIO::New().GetPointer(),
-                                                       itk::BMPImageIO::New().GetPointer(),
-                                                       itk::TIFFImageIO::New().GetPointer()};
+                                                       itk::BMPImageIO::New().GetPointer()};
   for (const auto& io : formats) {
     if (io->CanReadFile(file.c_str())) {
       return io;
@@ -71,17 +70,38 @@ void keep_first_channel(Slice& slice, std::size_t channels, const std::string& f
   slice.values.resize(count * bytes);
 }
 
-Slice read_slice(const std::string& file) {
+Slice read_tiff_slice(const std::string& file, std::size_t page) {
+  constexpr Component kComponents[] = {Component::UCHAR, Component::CHAR, Component::USHORT, Component::SHORT,
+                                       Component::UINT,  Component::INT,  Component::FLOAT};
+  constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4};
+  TiffPage from = read_tiff_page(file, page);
+  const auto type = static_cast<std::size_t>(from.value);
+  Slice slice{from.width, from.height, kComponents[type], kBytes[type], std::move(from.bytes)};
+  keep_first_channel(slice, from.channels, file);
+  return slice;
+}
+
+/// A palette's values stand for colours, which ITK puts in their place.
+void require_no_palette(const std::string& file) {
+  constexpr std::size_t kColourType = 25;
+  constexpr char kPalette = 3;
+  char head[kColourType + 1] = {};
+  std::ifstream(file, std::ios::binary).read(head, sizeof head);
+  if (std::string(head + 1, 3) == "PNG" && head[kColourType] == kPalette) {
+    fail(file, "it is a palette image, whose values stand for colours; convert it to grey values");
+  }
+}
+
+Slice read_slice(const std::string& file, std::size_t page) {
+  if (is_tiff(file)) {
+    return read_tiff_slice(file, page);
+  }
+  require_no_palette(file);
   const auto io = reader_of(file);
   Slice slice;
   try {
     io->SetFileName(file);
     io->ReadImageInformation();
-    for (unsigned axis = 2; axis < io->GetNumberOfDimensions(); ++axis) {
-      if (io->GetDimensions(axis) != 1) {
-        fail(file, "it has " + std::to_string(io->GetDimensions(axis)) + " pages; split it into slices");
-      }
-    }
     slice.width = io->GetDimensions(0);
     slice.height = io->GetDimensions(1);
     slice.component = io->GetComponentType();
@@ -128,13 +148,13 @@ std::string triple(const std::vector<double>& v, const char* separator) {
 }
 
 /// In both formats uncompressed values follow, first axis fastest, lowest byte first.
-std::string header(const TileCommand& command, const Slice& first) {
+std::string header(const TileCommand& command, const Slice& first, std::size_t slices) {
   const TypeNames& names = names_of(first.component, command.slices.front());
   const std::vector<double>& s = command.spacing_mm;
   std::ostringstream text;
   text.precision(17);
-  const std::string sizes = std::to_string(first.width) + " " + std::to_string(first.height) + " " +
-                            std::to_string(command.slices.size());
+  const std::string sizes =
+      std::to_string(first.width) + " " + std::to_string(first.height) + " " + std::to_string(slices);
   if (fs::path(command.out).extension() == ".nrrd") {
     text << "NRRD0004\ntype: " << names.nrrd
          << "\ndimension: 3\nspace: left-posterior-superior\nsizes: " << sizes << "\nspace directions: ("
@@ -173,23 +193,43 @@ void require_good(const TileCommand& command) {
   }
 }
 
+/// A slice of the volume: a file, or a page of one.
+struct Page {
+  const std::string& file;
+  std::size_t number;
+};
+
+std::vector<Page> pages_of(const std::vector<std::string>& files) {
+  std::vector<Page> pages;
+  for (const std::string& file : files) {
+    if (!fs::is_regular_file(file)) {
+      fail(file, "no such file; check its name");
+    }
+    const std::size_t count = is_tiff(file) ? count_tiff_pages(file) : 1;
+    for (std::size_t number = 0; number < count; ++number) {
+      pages.push_back({file, number});
+    }
+  }
+  return pages;
+}
+
 /// Holds one slice in memory at a time.
 void run(const TileCommand& command) {
   require_good(command);
   TerminalProgress progress(command.common.quiet);
+  const std::vector<Page> pages = pages_of(command.slices);
   Slice first;
   AtomicFile file(command.out);
   std::ofstream out(file.temporary(), std::ios::binary);
-  for (std::size_t n = 0; n < command.slices.size() && out; ++n) {
-    progress.step("slice " + command.slices[n],
-                  static_cast<double>(n) / static_cast<double>(command.slices.size()));
-    Slice slice = read_slice(command.slices[n]);
+  for (std::size_t n = 0; n < pages.size() && out; ++n) {
+    progress.step("slice " + pages[n].file, static_cast<double>(n) / static_cast<double>(pages.size()));
+    Slice slice = read_slice(pages[n].file, pages[n].number);
     if (n == 0) {
-      out << header(command, slice);
+      out << header(command, slice, pages.size());
       first = slice;
       first.values.clear();
     }
-    require_alike(slice, first, command.slices[n], command.slices.front());
+    require_alike(slice, first, pages[n].file, pages[0].file);
     out.write(slice.values.data(), static_cast<std::streamsize>(slice.values.size()));
   }
   out.close();
@@ -199,7 +239,7 @@ void run(const TileCommand& command) {
   file.commit();
   progress.done();
   progress.line("wrote " + command.out + ": " + std::to_string(first.width) + " x " +
-                std::to_string(first.height) + " x " + std::to_string(command.slices.size()) + " voxels");
+                std::to_string(first.height) + " x " + std::to_string(pages.size()) + " voxels");
 }
 
 }  // namespace
@@ -207,7 +247,9 @@ void run(const TileCommand& command) {
 void add_tile_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<TileCommand>();
   CLI::App* tile = app.add_subcommand("tile", "stacks 2-D slices, in the order given, to one volume");
-  tile->add_option("slices", command->slices, "grey slices of one size: PNG, BMP or TIFF")->required();
+  tile->add_option("slices", command->slices,
+                   "grey slices of one size: PNG, BMP or TIFF, of one page or several")
+      ->required();
   tile->add_option("--out", command->out, "volume, uncompressed: .nrrd or .mha")->required();
   tile->add_option("--spacing", command->spacing_mm, "X,Y,Z: distance of pixels and of slices, mm")
       ->required()

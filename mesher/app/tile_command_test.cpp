@@ -4,8 +4,12 @@
 #include <itkPNGImageIO.h>
 #include <itkTIFFImageIO.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
@@ -126,6 +130,86 @@ TEST_F(Tile, OneLineForWhatIsWrongAndNoFile) {
     EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
     EXPECT_FALSE(fs::exists(folder_ / "v.nrrd"));
   }
+}
+
+constexpr int kPalette = 3;  // of TIFF's photometric interpretations
+
+/// A TIFF file of pages of 3 x 2 values, each value its number in the file plus one.
+std::string tiff(int pages, int bits, int photometric, int format) {
+  std::string bytes("II*\0\0\0\0\0", 8);
+  const auto put = [&](std::size_t at, std::uint32_t value, std::size_t length) {
+    for (std::size_t n = 0; n < length; ++n) {
+      bytes[at + n] = static_cast<char>(value >> 8 * n);
+    }
+  };
+  std::size_t link = 4;
+  for (int page = 0; page < pages; ++page) {
+    const auto strip = static_cast<std::uint32_t>(bytes.size());
+    const auto each = static_cast<std::size_t>(bits) / 8;
+    bytes.resize(bytes.size() + 6 * each + (6 * each) % 2, '\0');
+    for (std::size_t v = 0; v < 6; ++v) {
+      put(strip + v * each, static_cast<std::uint32_t>(6 * static_cast<std::size_t>(page) + v + 1), each);
+    }
+    put(link, static_cast<std::uint32_t>(bytes.size()), 4);
+    const auto map = static_cast<std::uint32_t>(bytes.size());
+    bytes.resize(bytes.size() + (photometric == kPalette ? 3 * 2 * 256 : 0), '\1');
+    if (photometric == kPalette) {
+      put(link, static_cast<std::uint32_t>(bytes.size()), 4);
+    }
+    std::vector<std::array<std::uint32_t, 4>> entries = {{256, 4, 1, 3},
+                                                         {257, 4, 1, 2},
+                                                         {258, 4, 1, static_cast<std::uint32_t>(bits)},
+                                                         {259, 4, 1, 1},
+                                                         {262, 4, 1, static_cast<std::uint32_t>(photometric)},
+                                                         {273, 4, 1, strip},
+                                                         {277, 4, 1, 1},
+                                                         {278, 4, 1, 2},
+                                                         {279, 4, 1, static_cast<std::uint32_t>(6 * each)},
+                                                         {339, 4, 1, static_cast<std::uint32_t>(format)}};
+    if (photometric == kPalette) {
+      entries.insert(entries.end() - 1, {320, 3, 3 * 256, map});
+    }
+    std::size_t at = bytes.size();
+    bytes.resize(at + 2 + 12 * entries.size() + 4, '\0');
+    put(at, static_cast<std::uint32_t>(entries.size()), 2);
+    at += 2;
+    for (const auto& [tag, type, count, value] : entries) {
+      put(at, tag, 2);
+      put(at + 2, type, 2);  // 3 and 4: integers of 16 and 32 bits
+      put(at + 4, count, 4);
+      put(at + 8, value, 4);
+      at += 12;
+    }
+    link = at;
+  }
+  return bytes;
+}
+
+TEST_F(Tile, PagesOfEveryWidthAreSlices) {
+  for (const int bits : {8, 16, 32}) {
+    for (const int format : {1, 2}) {
+      std::ofstream(folder_ / "p.tif", std::ios::binary) << tiff(4, bits, 1, format);
+      const auto outcome =
+          testing::run_command("tile " + at("p.tif") + " --spacing 1,1,1 --quiet --out " + at("p.nrrd"));
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+      const LabelImage volume = read_label_image(folder_ / "p.nrrd");
+      EXPECT_EQ(volume.frame.size, (Index3{3, 2, 4}));
+      for (std::size_t v = 0; v < 24; ++v) {
+        EXPECT_EQ(volume.labels[volume.voxels[v]], static_cast<Label>(v + 1)) << bits;
+      }
+    }
+  }
+}
+
+TEST_F(Tile, TiffThatHoldsNoGreyValuesIsNamed) {
+  const auto refuse = [&](const std::string& bytes, const char* words) {
+    std::ofstream(folder_ / "bad.tif", std::ios::binary) << bytes;
+    expect_refusal("tile " + at("bad.tif") + " --spacing 1,1,1 --out " + at("bad.nrrd"), words, "bad.nrrd");
+  };
+  refuse(tiff(1, 8, kPalette, 1), "palette");
+  refuse(tiff(1, 8, 0, 1), "inverted");
+  refuse(tiff(1, 32, 1, 6), "32 bits (sample format 6)");
+  refuse(tiff(2, 8, 1, 1).substr(0, 12), "broken");
 }
 
 }  // namespace

@@ -56,10 +56,41 @@ TEST(FrameCheck, RefusesWhatNoFrameExpresses) {
   EXPECT_NE(refusal_of(nowhere), "");
   ImageFrame sheared;
   sheared.direction = Mat3::from_columns({1, 0, 0}, {0.1, 1, 0}, {0, 0, 1});
-  EXPECT_NE(refusal_of(sheared).find("sheared or singular"), std::string::npos);
+  EXPECT_NE(refusal_of(sheared).find("sheared by 0.0995"), std::string::npos) << refusal_of(sheared);
   ImageFrame singular;
   singular.direction = Mat3::from_columns({1, 0, 0}, {1, 0, 0}, {0, 0, 1});
-  EXPECT_NE(refusal_of(singular), "");
+  EXPECT_NE(refusal_of(singular).find("singular"), std::string::npos);
+  ImageFrame needle;
+  needle.spacing_mm = {1, 1, 1e-4};
+  EXPECT_NE(refusal_of(needle).find("1e+04 times as long as thick"), std::string::npos) << refusal_of(needle);
+}
+
+TEST(FrameCheck, AnAcceptedShearBecomesTheNearestFrameAroundTheSameCentre) {
+  ImageFrame frame;
+  frame.size = {11, 21, 31};
+  frame.origin_mm = {5, 6, 7};
+  frame.direction = Mat3::from_columns({1, 0, 0}, {0.1, 1, 0}, {0, 0, -1});
+  const Mat3 unit = Mat3::from_columns(frame.direction.column(0), frame.direction.column(1).normalized(),
+                                       frame.direction.column(2));
+  frame.direction = unit;
+  const Vec3 centre = frame.to_physical(frame.local_centre(5, 10, 15));
+  std::vector<std::string> warnings;
+  require_usable_frame(frame, "'a.nrrd'", true, &warnings);
+  EXPECT_LT((frame.to_physical(frame.local_centre(5, 10, 15)) - centre).norm(), 1e-12);
+  EXPECT_NEAR(frame.direction.determinant(), -1, 1e-14);
+  // The orthogonal factor Q of D = Q P leaves P = Q^T D symmetric.
+  const Mat3 symmetric = frame.direction.transposed() * unit;
+  EXPECT_NEAR(symmetric(0, 1), symmetric(1, 0), 1e-14);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("sheared by 0.0995"), std::string::npos);
+}
+
+TEST(FrameCheck, ASmallShearIsTakenAsItIs) {
+  for (const double shear : {2e-4, 9e-4}) {
+    ImageFrame frame;
+    frame.direction = Mat3::from_columns({1, 0, 0}, {shear, 1, 0}, {0, 0, 1});
+    EXPECT_EQ(refusal_of(frame), "") << shear;
+  }
 }
 
 }  // namespace

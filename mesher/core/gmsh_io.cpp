@@ -1,9 +1,14 @@
 #include "mesher/core/gmsh_io.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "mesher/core/error.hpp"
 
@@ -34,82 +39,175 @@ void write_block(std::FILE* out, const CellBlock<Nodes>& block, int type, std::s
 /// Node numbers of a file are arbitrary; ours count from 0.
 using NodeNumbers = std::unordered_map<long long, VertexId>;
 
-void read_nodes(std::istream& in, Mesh& mesh, NodeNumbers& numbers, const std::filesystem::path& path) {
-  std::size_t count = 0;
-  in >> count;
-  for (std::size_t v = 0; v < count; ++v) {
-    long long number = 0;
-    Vec3 p;
-    if (!(in >> number >> p[0] >> p[1] >> p[2])) {
-      fail(path, "it ends within its nodes (truncated); export it again");
+/// Reads the words of a file; what fails names it.
+class GmshReader {
+ public:
+  explicit GmshReader(const std::filesystem::path& path)
+      : path_(path), in_(path), bytes_(std::filesystem::file_size(path)) {
+    if (!in_) {
+      fail(path_, "the file cannot be opened; check its permissions");
     }
-    numbers[number] = static_cast<VertexId>(mesh.points.size());
-    mesh.points.push_back(p);
   }
-}
 
-template <int Nodes>
-void read_cell(std::istream& in, CellBlock<Nodes>& block, Label label, const NodeNumbers& numbers,
-               const std::filesystem::path& path) {
-  std::array<VertexId, Nodes> cell{};
-  for (VertexId& v : cell) {
-    long long number = 0;
-    in >> number;
-    const auto found = numbers.find(number);
-    if (!in || found == numbers.end()) {
-      fail(path, "an element names the node " + std::to_string(number) + ", which is not there");
+  Mesh read() {
+    bool version_seen = false;
+    for (std::string line; std::getline(in_, line);) {
+      if (line.starts_with("$MeshFormat")) {
+        require_version();
+        version_seen = true;
+      } else if (line.starts_with("$Nodes")) {
+        read_nodes();
+      } else if (line.starts_with("$Elements")) {
+        read_elements();
+      }
     }
-    v = found->second;
+    if (!version_seen || mesh_.cell_count() == 0) {
+      fail(path_, "not a Gmsh file with volume elements");
+    }
+    return std::move(mesh_);
   }
-  block.add(cell, label);
-}
 
-void read_element(std::istream& in, Mesh& mesh, const NodeNumbers& numbers,
-                  const std::filesystem::path& path) {
-  long long number = 0;
-  int type = 0;
-  int tags = 0;
-  if (!(in >> number >> type >> tags)) {
-    fail(path, "it ends within its elements (truncated); export it again");
-  }
-  Label label = 0;
-  for (int t = 0; t < tags; ++t) {
-    Label tag = 0;
-    in >> tag;
-    label = t == 0 ? tag : label;
-  }
-  switch (type) {
-    case kTet:
-      return read_cell(in, mesh.tets, label, numbers, path);
-    case kHex:
-      return read_cell(in, mesh.hexes, label, numbers, path);
-    case kWedge:
-      return read_cell(in, mesh.wedges, label, numbers, path);
-    case kPyramid:
-      return read_cell(in, mesh.pyramids, label, numbers, path);
-    case 1:
-    case 2:
-    case 3:
-    case 15: {  // lines, triangles, quads, points: boundary markers of other tools
-      std::string rest;
-      std::getline(in, rest);
-      return;
+ private:
+  template <typename T>
+  T next(const char* what) {
+    T value{};
+    if (!(in_ >> value)) {
+      fail(path_, std::string("it ends, or has what is no number, within its ") + what +
+                      " (truncated or damaged); export it again");
     }
-    default:
-      fail(path,
-           "it has elements of Gmsh type " + std::to_string(type) + "; known are linear volume elements");
+    return value;
   }
-}
+
+  /// A number of entries, each of which has so many bytes at least.
+  std::uint64_t next_count(const char* what, std::uint64_t least_bytes) {
+    const auto count = next<long long>(what);
+    if (count < 0 || static_cast<std::uint64_t>(count) > bytes_ / least_bytes) {
+      fail(path_, "it promises " + std::to_string(count) + " " + what +
+                      ", for which the file is too short (truncated or damaged); export it again");
+    }
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void require_version() {
+    double version = 0;
+    int binary = 0;
+    in_ >> version >> binary;
+    if (!in_ || !(version >= 2 && version < 3) || binary != 0) {
+      fail(path_, "only version 2.2 text files are known; export it with `gmsh -format msh22`");
+    }
+  }
+
+  /// A coordinate, "nan" and "inf" among them: streams do not read these words.
+  double next_coordinate(long long node) {
+    const auto word = next<std::string>("nodes");
+    const std::size_t plus = word.starts_with('+') ? 1 : 0;
+    double value = 0;
+    const char* const last = word.data() + word.size();
+    const auto [end, error] = std::from_chars(word.data() + plus, last, value);
+    if (error != std::errc() || end != last || !std::isfinite(value)) {
+      fail(path_, "node " + std::to_string(node) + " has the coordinate '" + word.substr(0, 40) +
+                      "', which is no finite number (truncated or damaged); export it again");
+    }
+    return value;
+  }
+
+  void read_nodes() {
+    constexpr std::uint64_t kLeastBytes = 8;  // "1 0 0 0" and the end of the line
+    const std::uint64_t count = next_count("nodes", kLeastBytes);
+    for (std::uint64_t v = 0; v < count; ++v) {
+      const auto number = next<long long>("nodes");
+      const double x = next_coordinate(number), y = next_coordinate(number), z = next_coordinate(number);
+      if (!numbers_.emplace(number, static_cast<VertexId>(mesh_.points.size())).second) {
+        fail(path_, "it has the node " + std::to_string(number) + " twice; export it again");
+      }
+      mesh_.points.push_back({x, y, z});
+    }
+  }
+
+  template <int Nodes>
+  void read_cell(CellBlock<Nodes>& block, Label label) {
+    std::array<VertexId, Nodes> cell{};
+    for (VertexId& v : cell) {
+      const auto number = next<long long>("elements");
+      const auto found = numbers_.find(number);
+      if (found == numbers_.end()) {
+        fail(path_, "an element names the node " + std::to_string(number) + ", which is not there");
+      }
+      v = found->second;
+    }
+    block.add(cell, label);
+  }
+
+  /// The first tag is the label.
+  Label read_tags() {
+    constexpr int kMostTags = 1000;
+    const int tags = next<int>("elements");
+    if (tags < 0 || tags > kMostTags) {
+      fail(path_, "an element has " + std::to_string(tags) + " tags; the file is damaged, export it again");
+    }
+    Label label = 0;
+    for (int t = 0; t < tags; ++t) {
+      const Label tag = next<Label>("elements");
+      label = t == 0 ? tag : label;
+    }
+    return label;
+  }
+
+  void read_elements() {
+    constexpr std::uint64_t kLeastBytes = 6;  // "1 15 0" and the end of the line
+    const std::uint64_t count = next_count("elements", kLeastBytes);
+    for (std::uint64_t e = 0; e < count; ++e) {
+      next<long long>("elements");
+      const int type = next<int>("elements");
+      read_nodes_of_element(type, read_tags());
+    }
+  }
+
+  void read_nodes_of_element(int type, Label label) {
+    switch (type) {
+      case kTet:
+        return read_cell(mesh_.tets, label);
+      case kHex:
+        return read_cell(mesh_.hexes, label);
+      case kWedge:
+        return read_cell(mesh_.wedges, label);
+      case kPyramid:
+        return read_cell(mesh_.pyramids, label);
+      case 1:
+      case 2:
+      case 3:
+      case 15: {  // lines, triangles, quads, points: boundary markers of other tools
+        std::string rest;
+        std::getline(in_, rest);
+        return;
+      }
+      default:
+        fail(path_,
+             "it has elements of Gmsh type " + std::to_string(type) + "; known are linear volume elements");
+    }
+  }
+
+  const std::filesystem::path& path_;
+  std::ifstream in_;
+  std::uint64_t bytes_;
+  Mesh mesh_;
+  NodeNumbers numbers_;
+};
 
 }  // namespace
 
+void require_gmsh_labels(const std::vector<Label>& labels, const std::filesystem::path& path) {
+  const auto lowest = std::min_element(labels.begin(), labels.end());
+  if (lowest != labels.end() && *lowest <= 0) {
+    throw InputError("cannot write '" + path.string() +
+                     "': Gmsh's physical groups must be positive and there is the label " +
+                     std::to_string(*lowest) + "; write .vtu instead");
+  }
+}
+
 void write_gmsh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::vector<Label> labels = labels_of(mesh);
-  if (!labels.empty() && labels.front() <= 0) {
-    throw InputError("cannot write '" + path.string() +
-                     "': Gmsh's physical groups must be positive and the mesh has label " +
-                     std::to_string(labels.front()) + "; write .vtu instead");
-  }
+  require_gmsh_labels(labels, path);
   std::FILE* out = std::fopen(path.c_str(), "wb");
   if (out == nullptr) {
     throw JobError("cannot write '" + path.string() + "': the file cannot be created");
@@ -137,33 +235,7 @@ void write_gmsh(const Mesh& mesh, const std::filesystem::path& path) {
 }
 
 Mesh read_gmsh(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  Mesh mesh;
-  NodeNumbers numbers;
-  bool version_seen = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("$MeshFormat", 0) == 0) {
-      double version = 0;
-      int binary = 0;
-      in >> version >> binary;
-      if (!in || version < 2 || version >= 3 || binary != 0) {
-        fail(path, "only version 2.2 text files are known; export it with `gmsh -format msh22`");
-      }
-      version_seen = true;
-    } else if (line.rfind("$Nodes", 0) == 0) {
-      read_nodes(in, mesh, numbers, path);
-    } else if (line.rfind("$Elements", 0) == 0) {
-      std::size_t count = 0;
-      in >> count;
-      for (std::size_t e = 0; e < count; ++e) {
-        read_element(in, mesh, numbers, path);
-      }
-    }
-  }
-  if (!version_seen || mesh.cell_count() == 0) {
-    fail(path, "not a Gmsh file with volume elements");
-  }
-  return mesh;
+  return GmshReader(path).read();
 }
 
 }  // namespace cbc3d

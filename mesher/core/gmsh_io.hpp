@@ -7,6 +7,9 @@
 
 namespace cbc3d {
 
+/// Gmsh's physical groups have positive numbers: throws InputError where a label is none.
+void require_gmsh_labels(const std::vector<Label>& labels, const std::filesystem::path& path);
+
 /// Writes to exactly this path (the caller makes it atomic). Labels become physical groups named "label_N".
 /// Gmsh's physical tags are positive, so a mesh with a label <= 0 is refused with InputError. Throws JobError
 /// when writing fails.

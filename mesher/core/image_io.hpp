@@ -1,17 +1,35 @@
-// Reading segmented images from files: everything ITK reads (NIfTI, NRRD, MHA/MHD, ...) and INRIMAGE.
+// Segmented images from files and to files.
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mesher/core/label_image.hpp"
 
 namespace cbc3d {
 
-/// Reads a label image with its physical frame. A 4-D header whose last dimension is 1 counts as 3-D; float
-/// pixels are accepted when every value is integral. Throws InputError (one line naming file, finding and
-/// remedy) for a missing or broken file, a 2-D, colour or fractional image, or one without any labelled
-/// voxel.
-LabelImage read_label_image(const std::filesystem::path& path);
+/// How far a value may be from an integer and still be rounded to it where that is asked for.
+inline constexpr double kRoundingTolerance = 1e-4;
+
+/// What is refused without being asked for.
+struct ReadImageOptions {
+  bool accept_shear = false;  ///< axes that are sheared become the nearest orthogonal ones
+  bool round_values = false;  ///< values within kRoundingTolerance of an integer are that integer
+};
+
+/// Reads a label image with its physical frame: NIfTI-1 and -2, Analyze, NRRD, MetaImage, INRIMAGE, GIPL, MGH
+/// and MIF, recognised by their first bytes. A 4-D header whose last dimension is 1 counts as 3-D; float
+/// pixels are accepted when every value is integral. `warnings` (or null) gains a line, which names the file,
+/// for everything that was taken for granted. Throws InputError (one line naming file, finding and remedy)
+/// for a missing file, one that has fewer or more bytes than its header promises or fails a check sum, a
+/// frame that is none, a 2-D, colour or fractional image, or one without any labelled voxel.
+LabelImage read_label_image(const std::filesystem::path& path, const ReadImageOptions& options = {},
+                            std::vector<std::string>* warnings = nullptr);
+
+/// Checks, before any long work, that an image could be written to `path`: a known extension and a folder
+/// that can be written to. Throws InputError.
+void require_writable_image_path(const std::filesystem::path& path);
 
 /// Writes a label image as NIfTI, NRRD or MHA by the extension, in the smallest integer type that holds its
 /// labels. Atomic. Throws InputError for an unknown extension, JobError when writing fails.

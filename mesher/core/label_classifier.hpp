@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/image_io.hpp"
 #include "mesher/core/label_image.hpp"
 #include "mesher/core/voxel_rows.hpp"
 
@@ -142,17 +143,20 @@ class Classifier {
   }
 
   void require_label(T value) const {
-    std::ostringstream text;
-    text << +value;
+    char digits[64];
+    const std::string text(std::begin(digits),
+                           std::to_chars(std::begin(digits), std::end(digits), value).ptr);
     if constexpr (std::is_floating_point_v<T>) {
       if (!std::isfinite(value) || value != std::floor(value)) {
-        fail("it has the fractional value " + text.str() +
-             "; give integer labels (threshold or round it first)");
+        fail("it has the fractional value " + text +
+             (std::fabs(value - std::nearbyint(value)) <= kRoundingTolerance
+                  ? "; round_values takes what is within 1e-4 of an integer"
+                  : "; give integer labels (threshold or round it first)"));
       }
     }
     if (static_cast<long double>(value) > std::numeric_limits<Label>::max() ||
         static_cast<long double>(value) < std::numeric_limits<Label>::min()) {
-      fail("its label " + text.str() + " does not fit 32 bits; renumber the labels");
+      fail("its label " + text + " does not fit 32 bits; renumber the labels");
     }
   }
 

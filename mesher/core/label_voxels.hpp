@@ -10,7 +10,7 @@
 
 #include "mesher/core/large_pages.hpp"
 #include "mesher/core/mapped_voxels.hpp"
-#include "mesher/core/packed_voxels.hpp"
+#include "mesher/core/voxel_bytes.hpp"
 
 namespace cbc3d {
 

@@ -105,8 +105,9 @@ TEST_F(MappedLabels, BeyondFourThousandMillion) {
   image.labels = {0, 1};
   const std::size_t count = image.frame.voxel_count();
   ASSERT_EQ(count, 4295163904U);
-  fs::resize_file(file_, write(image.frame.size, "") + count);
-  auto mapped = map_raw_nrrd(file_, count, 1);
+  const std::size_t begin = write(image.frame.size, "");
+  fs::resize_file(file_, begin + count);
+  auto mapped = map_voxels(file_, begin, count);
   ASSERT_TRUE(mapped.has_value());
   image.voxels = LabelVoxels(std::move(*mapped), count);
   const std::size_t last = image.frame.offset(65535, 65538, 0), before = image.frame.offset(7, 65537, 0);

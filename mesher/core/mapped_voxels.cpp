@@ -6,8 +6,6 @@
 
 #include <utility>
 
-#include "mesher/core/nrrd_header.hpp"
-
 namespace cbc3d {
 namespace fs = std::filesystem;
 MappedVoxels::MappedVoxels(MappedVoxels&& other) noexcept
@@ -32,13 +30,10 @@ void MappedVoxels::page_out() const {
 #endif
 }
 
-std::optional<MappedVoxels> map_raw_nrrd(const fs::path& path, std::size_t bytes,
-                                         std::size_t component_bytes) {
+std::optional<MappedVoxels> map_voxels(const fs::path& path, std::uint64_t offset, std::size_t bytes) {
   std::error_code error;
   const auto length = fs::file_size(path, error);
-  const std::size_t offset =
-      path.extension() == ".nrrd" ? nrrd_voxel_offset(path, component_bytes, {"raw"}) : 0;
-  if (error || offset == 0 || offset % component_bytes != 0 || length < offset + bytes) {
+  if (error || offset > length || length - offset < bytes) {
     return std::nullopt;
   }
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

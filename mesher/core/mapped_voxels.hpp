@@ -1,7 +1,8 @@
-// Voxels of an uncompressed NRRD file where they lie on the disk, so that no copy of them is in memory.
+// Voxels of an uncompressed file where they lie on the disk, so that no copy of them is in memory.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -22,17 +23,15 @@ class MappedVoxels {
   void page_out() const;
 
  private:
-  friend std::optional<MappedVoxels> map_raw_nrrd(const std::filesystem::path&, std::size_t, std::size_t);
+  friend std::optional<MappedVoxels> map_voxels(const std::filesystem::path&, std::uint64_t, std::size_t);
   MappedVoxels(void* mapping, std::size_t length, std::size_t offset)
       : mapping_(mapping), length_(length), offset_(offset) {}
   void* mapping_;
   std::size_t length_, offset_;
 };
 
-/// Maps the voxels of a .nrrd file that holds them itself, uncompressed, aligned and in this machine's byte
-/// order, `bytes` in all and `component_bytes` each; none for any other file, which ITK then has to
-/// read.
-std::optional<MappedVoxels> map_raw_nrrd(const std::filesystem::path& path, std::size_t bytes,
-                                         std::size_t component_bytes);
+/// Maps a file with `bytes` of voxels from `offset` on; none where it has fewer or the system cannot map it.
+std::optional<MappedVoxels> map_voxels(const std::filesystem::path& path, std::uint64_t offset,
+                                       std::size_t bytes);
 
 }  // namespace cbc3d

@@ -44,28 +44,34 @@ class Mapped : public ::testing::Test {
   fs::path file_;
 };
 
-TEST_F(Mapped, RawLittleEndianIsMapped) {
+TEST_F(Mapped, RawLittleEndianIsRead) {
   write(nrrd("endian: little\nencoding: raw\n"));
-  EXPECT_TRUE(map_raw_nrrd(file_, 120, 2).has_value());
-  EXPECT_FALSE(map_raw_nrrd(file_, 122, 2).has_value());  // more than there is
   expect_counting();
 }
 
 TEST_F(Mapped, OtherByteOrderIsReadTheOrdinaryWay) {
   write(nrrd("endian: big\nencoding: raw\n", true));
-  EXPECT_FALSE(map_raw_nrrd(file_, 120, 2).has_value());
   expect_counting();
+}
+
+TEST_F(Mapped, WhatTheFileHasIsMapped) {
+  write("0123456789");
+  const auto mapped = map_voxels(file_, 4, 6);
+  ASSERT_TRUE(mapped.has_value());
+  EXPECT_EQ(static_cast<const char*>(mapped->data())[5], '9');
+  EXPECT_FALSE(map_voxels(file_, 4, 7).has_value());  // more than there is
+  EXPECT_FALSE(map_voxels(file_, 11, 1).has_value());
+  EXPECT_FALSE(map_voxels(file_, ~std::uint64_t{0}, 1).has_value());
 }
 
 TEST_F(Mapped, TruncatedIsStillRefused) {
   write(nrrd("endian: little\nencoding: raw\n").substr(0, 300));
-  EXPECT_FALSE(map_raw_nrrd(file_, 120, 2).has_value());
   EXPECT_THROW(read_label_image(file_), InputError);
 }
 
-TEST_F(Mapped, CompressedIsLeftAlone) {
+TEST_F(Mapped, WhatIsNotCompressedAsItsHeaderSaysIsRefused) {
   write(nrrd("endian: little\nencoding: gzip\n"));
-  EXPECT_FALSE(map_raw_nrrd(file_, 120, 2).has_value());
+  EXPECT_THROW(read_label_image(file_), InputError);
 }
 
 }  // namespace

@@ -1,28 +1,29 @@
 #include "mesher/core/mesh_io.hpp"
 
+#include <unistd.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkCommand.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <cerrno>
 #include <cstring>
 #include <string>
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/gmsh_io.hpp"
+#include "mesher/core/grid_arrays.hpp"
 #include "mesher/core/parallel_deflate.hpp"
+#include "mesher/core/vtk_faults.hpp"
+#include "mesher/core/vtk_reading.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -30,26 +31,10 @@ namespace {
 
 constexpr const char* kLabelArray = "label";
 
-/// VTK reports faults through observers, not exceptions.
-class FaultCatcher : public vtkCommand {
- public:
-  static FaultCatcher* New() { return new FaultCatcher; }
-  void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* data) override {
-    if (text.empty() && data != nullptr) {
-      text = static_cast<const char*>(data);
-    }
-  }
-  std::string text;
-};
-
-/// VTK's wedge has its first triangle's normal pointing away from the second; Verdict's, and ours, towards
-/// it.
-constexpr std::size_t kWedgeOrder[6] = {0, 2, 1, 3, 5, 4};
-
 /// The arrays of a grid, filled block by block of cells.
-class GridArrays {
+class VtkArrays {
  public:
-  explicit GridArrays(const Mesh& mesh) {
+  explicit VtkArrays(const Mesh& mesh) {
     const auto cells = static_cast<vtkIdType>(mesh.cell_count());
     const std::size_t nodes =
         4 * mesh.tets.size() + 5 * mesh.pyramids.size() + 6 * mesh.wedges.size() + 8 * mesh.hexes.size();
@@ -104,7 +89,7 @@ vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Mesh& mesh) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     std::memcpy(points->GetVoidPointer(0), mesh.points.data(), mesh.points.size() * sizeof(Vec3));
   }
-  GridArrays arrays(mesh);
+  VtkArrays arrays(mesh);
   arrays.append(mesh.tets, VTK_TETRA);
   arrays.append(mesh.pyramids, VTK_PYRAMID);
   arrays.append(mesh.wedges, VTK_WEDGE);
@@ -115,25 +100,10 @@ vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Mesh& mesh) {
   return grid;
 }
 
-/// VTK also prints its faults itself, in many lines; this silences it, so that the user gets our one
-/// line.
-class VtkSilence {
- public:
-  VtkSilence() : before_(vtkLogger::GetCurrentVerbosityCutoff()) {
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~VtkSilence() { vtkLogger::SetStderrVerbosity(before_); }
-  VtkSilence(const VtkSilence&) = delete;
-  VtkSilence& operator=(const VtkSilence&) = delete;
-
- private:
-  vtkLogger::Verbosity before_;
-};
-
 template <typename Writer>
 void run_writer(Writer& writer, vtkUnstructuredGrid& grid, const fs::path& path) {
   const VtkSilence silence;
-  vtkNew<FaultCatcher> faults;
+  vtkNew<VtkFaults> faults;
   writer.AddObserver(vtkCommand::ErrorEvent, faults);
   writer.SetInputData(&grid);
   writer.SetFileName(path.c_str());
@@ -175,79 +145,6 @@ void write_legacy_vtk(const Mesh& mesh, const fs::path& path) {
   run_writer(*writer, *to_vtk(mesh), path);
 }
 
-template <int Nodes>
-void take_cell(CellBlock<Nodes>& block, const vtkIdType* ids, bool wedge, Label label) {
-  std::array<VertexId, Nodes> cell;
-  for (int n = 0; n < Nodes; ++n) {
-    cell[static_cast<std::size_t>(n)] = static_cast<VertexId>(ids[wedge ? kWedgeOrder[n % 6] : n]);
-  }
-  block.add(cell, label);
-}
-
-void take_cells(vtkUnstructuredGrid& grid, vtkDataArray& labels, Mesh& mesh, const fs::path& path) {
-  vtkNew<vtkIdList> list;
-  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
-    const auto label = static_cast<Label>(labels.GetComponent(c, 0));
-    const int type = grid.GetCellType(c);
-    grid.GetCellPoints(c, list);
-    const vtkIdType* ids = list->GetPointer(0);
-    switch (type) {
-      case VTK_TETRA:
-        take_cell(mesh.tets, ids, false, label);
-        break;
-      case VTK_PYRAMID:
-        take_cell(mesh.pyramids, ids, false, label);
-        break;
-      case VTK_WEDGE:
-        take_cell(mesh.wedges, ids, true, label);
-        break;
-      case VTK_HEXAHEDRON:
-        take_cell(mesh.hexes, ids, false, label);
-        break;
-      case VTK_EMPTY_CELL:
-      case VTK_VERTEX:
-      case VTK_LINE:
-      case VTK_TRIANGLE:
-      case VTK_QUAD:
-        break;  // boundary markers of other tools
-      default:
-        throw InputError("cannot read '" + path.string() + "': it has cells of VTK type " +
-                         std::to_string(type) + "; known are linear tets, pyramids, wedges and hexes");
-    }
-  }
-}
-
-Mesh from_vtk(vtkUnstructuredGrid& grid, const fs::path& path) {
-  vtkDataArray* labels = grid.GetCellData()->GetArray(kLabelArray);
-  if (labels == nullptr) {
-    throw InputError("cannot read '" + path.string() +
-                     "': it has no cell array 'label'; add one integer label a cell");
-  }
-  Mesh mesh;
-  mesh.points.resize(static_cast<std::size_t>(grid.GetNumberOfPoints()));
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    grid.GetPoint(static_cast<vtkIdType>(v), &mesh.points[v].x);
-  }
-  take_cells(grid, *labels, mesh, path);
-  return mesh;
-}
-
-template <typename Reader>
-Mesh run_reader(const fs::path& path) {
-  const VtkSilence silence;
-  vtkNew<Reader> reader;
-  vtkNew<FaultCatcher> faults;
-  reader->AddObserver(vtkCommand::ErrorEvent, faults);
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkUnstructuredGrid* grid = reader->GetOutput();
-  if (!faults->text.empty() || grid == nullptr || grid->GetNumberOfCells() == 0) {
-    throw InputError("cannot read '" + path.string() +
-                     "': not a VTK unstructured grid with cells, or a damaged one");
-  }
-  return from_vtk(*grid, path);
-}
-
 enum class Format { vtu, vtk, msh };
 
 Format format_of(const fs::path& path) {
@@ -259,11 +156,31 @@ Format format_of(const fs::path& path) {
                    "'; use .vtu, .vtk or .msh");
 }
 
+void require_readable(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
+    throw InputError("cannot read '" + path.string() + "': " +
+                     (error && error != std::errc::no_such_file_or_directory
+                          ? error.message() + "; check its permissions"
+                          : "the file does not exist; check its name"));
+  }
+  if (::access(path.c_str(), R_OK) != 0) {
+    throw InputError("cannot read '" + path.string() + "': the file cannot be opened (" +
+                     std::strerror(errno) + "); check its permissions");
+  }
+}
+
 }  // namespace
 
 void require_writable_mesh_path(const fs::path& path) {
   format_of(path);
   require_writable(path);
+}
+
+void require_writable_labels(const std::vector<Label>& labels, const fs::path& path) {
+  if (format_of(path) == Format::msh) {
+    require_gmsh_labels(labels, path);
+  }
 }
 
 void write_mesh(const Mesh& mesh, const fs::path& path) {
@@ -285,17 +202,14 @@ void write_mesh(const Mesh& mesh, const fs::path& path) {
 
 Mesh read_mesh(const fs::path& path) {
   const Format format = format_of(path);
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) {
-    throw InputError("cannot read '" + path.string() + "': the file does not exist; check its name");
-  }
+  require_readable(path);
   switch (format) {
     case Format::vtk:
-      return run_reader<vtkUnstructuredGridReader>(path);
+      return read_vtk(path, VtkFormat::legacy);
     case Format::msh:
       return read_gmsh(path);
     default:
-      return run_reader<vtkXMLUnstructuredGridReader>(path);
+      return read_vtk(path, VtkFormat::xml);
   }
 }
 

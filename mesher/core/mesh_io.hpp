@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "mesher/core/mesh.hpp"
 
@@ -11,6 +12,10 @@ namespace cbc3d {
 /// Checks, before any long work, that a mesh could be written to `path`: a known extension and a folder that
 /// can be written to. Throws InputError.
 void require_writable_mesh_path(const std::filesystem::path& path);
+
+/// Checks, before any long work, that the format of `path` can hold these labels: Gmsh's physical groups are
+/// positive. Throws InputError.
+void require_writable_labels(const std::vector<Label>& labels, const std::filesystem::path& path);
 
 /// Writes `mesh` in the format of the extension, cells carrying the integer array "label". The file appears
 /// under its final name only when it is complete. Throws InputError when the format is unknown, JobError when

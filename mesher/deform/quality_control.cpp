@@ -127,7 +127,7 @@ std::size_t QualityControl::hold_back(const std::vector<Vec3>& before, std::vect
     for (const VertexId v : vertices) {
       held += halvings[v] == 0 ? 1 : 0;
       halvings[v] = static_cast<std::uint8_t>(std::min(halvings[v] + 1, kHalvings + 1));
-      displacement[v] *= halvings[v] <= kHalvings ? 0.5 : 0.0;
+      displacement[v] = halvings[v] <= kHalvings ? displacement[v] * 0.5 : Vec3{};  // NaN times 0 is NaN
       after[v] = before[v] + displacement[v];
     }
     failing = failing_around(vertices, before, after, cell_seen, round);

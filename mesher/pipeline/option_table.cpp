@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr NumberRange kPositive{.lowest = 0, .highest = kNoLimit, .excludes_lowest = true};
+constexpr NumberRange kStiffness{
+    .lowest = 0, .highest = 1e12, .excludes_lowest = true, .excludes_highest = true};
 constexpr NumberRange kNotNegative{.lowest = 0, .highest = kNoLimit};
 constexpr NumberRange kShare{.lowest = 0, .highest = 1};
 
@@ -357,7 +359,7 @@ std::vector<OptionRow> solid_rows() {
           [](auto& o) -> auto& { return o.deform.on_failure; }, kOnFailure),
       number(
           {.name = "young-pa", .group = kGroup, .symbol = "E", .unit = "Pa", .text = "Young's modulus"},
-          [](auto& o) -> auto& { return o.deform.elasticity.all.young_pa; }, kPositive),
+          [](auto& o) -> auto& { return o.deform.elasticity.all.young_pa; }, kStiffness),
       number({.name = "poisson", .group = kGroup, .symbol = "NU", .text = "Poisson's ratio"},
              [](auto& o) -> auto& { return o.deform.elasticity.all.poisson; },
              {.lowest = 0, .highest = 0.499}),
@@ -369,8 +371,7 @@ std::vector<OptionRow> solid_rows() {
                         .label_key = "young_pa",
                         .text = "Young's modulus of one label",
                         .unset_text = "that of all"},
-                       &ElasticMaterial::young_pa,
-                       {.lowest = 0, .highest = 1e12, .excludes_lowest = true, .excludes_highest = true}),
+                       &ElasticMaterial::young_pa, kStiffness),
       elastic_property({.name = "material-poisson",
                         .group = kGroup,
                         .symbol = "LABEL=NU",

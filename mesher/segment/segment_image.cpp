@@ -3,7 +3,6 @@
 #include <itkFastMarchingUpwindGradientImageFilter.h>
 #include <itkGeodesicActiveContourLevelSetImageFilter.h>
 #include <itkGradientMagnitudeRecursiveGaussianImageFilter.h>
-#include <itkImageFileReader.h>
 #include <itkImageRegionIterator.h>
 #include <itkImageRegionIteratorWithIndex.h>
 #include <itkRegionOfInterestImageFilter.h>
@@ -15,7 +14,7 @@
 #include <cmath>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/itk_formats.hpp"
+#include "mesher/core/read_image.hpp"
 
 namespace cbc3d {
 namespace {
@@ -29,23 +28,30 @@ std::string text_of(const Vec3& p) {
   return std::to_string(p.x) + "," + std::to_string(p.y) + "," + std::to_string(p.z);
 }
 
+/// The image of a file as ITK's filters take it.
 Grey::Pointer read_grey(const fs::path& path) {
-  register_itk_formats();
-  if (!fs::is_regular_file(path)) {
-    throw InputError("cannot read '" + path.string() + "': no such file; check its name");
+  const GreyImage image = read_grey_image(path);
+  auto grey = Grey::New();
+  Grey::SizeType size;
+  Grey::SpacingType spacing;
+  Grey::PointType origin;
+  Grey::DirectionType direction;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<unsigned>(axis);
+    size[a] = static_cast<itk::SizeValueType>(image.frame.size[a]);
+    spacing[a] = image.frame.spacing_mm[axis];
+    origin[a] = image.frame.origin_mm[axis];
+    for (int row = 0; row < 3; ++row) {
+      direction(static_cast<unsigned>(row), a) = image.frame.direction(row, axis);
+    }
   }
-  auto reader = itk::ImageFileReader<Grey>::New();
-  reader->SetFileName(path.string());
-  try {
-    reader->Update();
-  } catch (const itk::ExceptionObject& error) {
-    throw InputError("cannot read '" + path.string() +
-                     "': not a 3-D grey image that is known, or a broken one; give NIfTI, NRRD or MHA/MHD");
-  }
-  if (reader->GetImageIO()->GetNumberOfComponents() != 1) {
-    throw InputError("cannot read '" + path.string() + "': it is a colour image; give one with grey values");
-  }
-  return reader->GetOutput();
+  grey->SetRegions(size);
+  grey->SetSpacing(spacing);
+  grey->SetOrigin(origin);
+  grey->SetDirection(direction);
+  grey->Allocate();
+  std::copy(image.values.begin(), image.values.end(), grey->GetBufferPointer());
+  return grey;
 }
 
 Grey::IndexType index_at(const Grey& image, const Vec3& p, const char* what) {

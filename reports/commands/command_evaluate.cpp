@@ -31,6 +31,7 @@ struct EvaluateCommandOptions {
   bool solve = false;
   double solve_timeout_s = RunOptions{}.timeout_s;
   metrics::EvaluateOptions metrics;
+  ReadImageOptions reading;
 };
 
 /// What the image is, for the table of image data.
@@ -91,8 +92,13 @@ int evaluate(const EvaluateCommandOptions& options) {
   TerminalProgress progress(options.quiet);
   progress.step("reading", 0);
   const Mesh mesh = read_mesh(options.mesh);
-  const LabelImage image = read_label_image(options.image);
+  std::vector<std::string> warnings;
+  const LabelImage image = read_label_image(options.image, options.reading, &warnings);
+  for (const std::string& warning : warnings) {
+    progress.line("warning: " + warning, true);
+  }
   nlohmann::json evaluation = metrics::evaluate(mesh, image, judged, progress);
+  evaluation["warnings"] = warnings;
   evaluation["image"] = image_section(image);
   if (options.solve) {
     progress.step("solving", 1);
@@ -158,6 +164,11 @@ Command add_evaluate_command(CLI::App& app) {
   parser->add_option("--solve-timeout", options->solve_timeout_s, "time limit of that process, s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  parser->add_flag("--accept-shear", options->reading.accept_shear,
+                   "take the nearest orthogonal frame of an image whose axes are sheared (accept_shear)");
+  parser->add_flag(
+      "--round", options->reading.round_values,
+      "take values within 1e-4 of an integer as that integer, of images of floats (round_values)");
   add_phantom_options(*parser, options);
   add_threads_option(parser, options->threads);
   parser->add_flag("--quiet", options->quiet, "no progress and no figures on the screen");

@@ -277,7 +277,10 @@ class Children {
     ChildResult child =
         run_child({argv, threads, options_.timeout_s, options_.memory_limit_bytes, bind_threads});
     if (!succeeded(child)) {
-      write_text_file(files_.log, child.stderr_tail);
+      try {
+        write_text_file(files_.log, child.stderr_tail);
+      } catch (const std::exception&) {  // a mesher may have filled the disk: its mesh has to go all the same
+      }
     }
     return child;
   }

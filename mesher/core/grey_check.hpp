@@ -1,0 +1,30 @@
+// Whether an image that was given as a label image is a grey one.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "mesher/core/label_image.hpp"
+
+namespace cbc3d {
+
+/// How much of an image is in one piece. In grey images most voxels differ from those beside them, in label
+/// images few do: of atlases with 30 to 724 labels at most 1 % of the voxels stand alone and 18 % of the
+/// faces between labelled voxels are between unlike ones, of brain scans at least 37 % and 71 %.
+struct LabelTexture {
+  std::size_t labels = 0;         ///< without background
+  std::size_t voxels = 0;         ///< labelled
+  std::size_t single_voxels = 0;  ///< labelled, and no face neighbour has the same label
+  std::size_t faces = 0;          ///< between labelled voxels
+  std::size_t unlike_faces = 0;   ///< of them, between two labels
+};
+LabelTexture texture_of(const LabelImage& image);
+
+/// More labels than this, and a share of single voxels or of unlike faces above these, mean a grey image.
+inline constexpr std::size_t kManyLabels = 30;
+inline constexpr double kMostSingleVoxels = 0.05, kMostUnlikeFaces = 0.5;
+
+/// Why the image looks grey, with the figures; empty where it does not.
+std::string why_grey(const LabelImage& image);
+
+}  // namespace cbc3d

@@ -1,0 +1,248 @@
+#include "mesher/core/read_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <type_traits>
+
+#include "mesher/core/error.hpp"
+#include "mesher/core/frame_check.hpp"
+#include "mesher/core/label_classifier.hpp"
+#include "mesher/core/mapped_voxels.hpp"
+#include "mesher/core/voxel_bytes.hpp"
+#include "mesher/formats/read_header.hpp"
+#include "mesher/formats/voxel_data.hpp"
+
+namespace cbc3d {
+namespace fs = std::filesystem;
+namespace {
+
+using formats::Component;
+using formats::ImageHeader;
+
+/// The beginning of every message about a file.
+std::string subject_of(const fs::path& path) {
+  return "cannot read '" + path.string() + "'";
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw InputError(subject_of(path) + ": " + what);
+}
+
+void require_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    fail(path, error ? error.message() + "; check its name and permissions"
+                     : "the file does not exist; check its name");
+  }
+  if (fs::is_directory(path, error)) {
+    fail(path, "it is a folder; name an image file");
+  }
+}
+
+ImageFrame frame_of(const ImageHeader& header) {
+  ImageFrame frame;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    frame.size[a] = static_cast<int>(header.size[a]);
+    frame.spacing_mm[axis] = header.spacing_mm[a];
+    frame.origin_mm[axis] = header.origin_mm[a];
+    for (int row = 0; row < 3; ++row) {
+      frame.direction(row, axis) = header.axes[a][static_cast<std::size_t>(row)];
+    }
+  }
+  return frame;
+}
+
+/// Calls f with a null pointer to the type of the voxels.
+template <typename F>
+decltype(auto) with_type(Component component, const F& f) {
+  switch (component) {
+    case Component::uint8:
+      return f(static_cast<const std::uint8_t*>(nullptr));
+    case Component::int8:
+      return f(static_cast<const std::int8_t*>(nullptr));
+    case Component::uint16:
+      return f(static_cast<const std::uint16_t*>(nullptr));
+    case Component::int16:
+      return f(static_cast<const std::int16_t*>(nullptr));
+    case Component::uint32:
+      return f(static_cast<const std::uint32_t*>(nullptr));
+    case Component::int32:
+      return f(static_cast<const std::int32_t*>(nullptr));
+    case Component::uint64:
+      return f(static_cast<const std::uint64_t*>(nullptr));
+    case Component::int64:
+      return f(static_cast<const std::int64_t*>(nullptr));
+    case Component::float32:
+      return f(static_cast<const float*>(nullptr));
+    default:
+      return f(static_cast<const double*>(nullptr));
+  }
+}
+
+VoxelBytes voxels_in_memory(ImageHeader& header) {
+  const std::size_t lead = formats::lead_bytes(header), bytes = formats::voxel_bytes(header);
+  VoxelBytes voxels(lead, bytes);
+  formats::read_voxels(header, {voxels.data() - lead, lead + bytes});
+  return voxels;
+}
+
+FileVoxels voxels_of_file(ImageHeader& header) {
+  formats::require_plausible_length(header);
+  if (const auto offset = formats::offset_in_place(header)) {
+    if (auto mapped = map_voxels(header.files[0].path, *offset, formats::voxel_bytes(header))) {
+      return std::move(*mapped);
+    }
+  }
+  return voxels_in_memory(header);
+}
+
+/// What is no number becomes background, as the NIfTI library has it; returns how many voxels did.
+template <typename T>
+std::size_t zero_what_is_no_number(T* values, std::size_t count) {
+  std::size_t zeroed = 0;
+#pragma omp parallel for schedule(static) reduction(+ : zeroed)
+  for (std::size_t v = 0; v < count; ++v) {
+    if (!std::isfinite(values[v])) {
+      values[v] = T{0};
+      ++zeroed;
+    }
+  }
+  return zeroed;
+}
+
+/// Values within the tolerance of an integer become that integer.
+template <typename T>
+void round_values(T* values, std::size_t count) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t v = 0; v < count; ++v) {
+    const T whole = std::nearbyint(values[v]);
+    if (std::fabs(values[v] - whole) <= static_cast<T>(kRoundingTolerance)) {
+      values[v] = whole;
+    }
+  }
+}
+
+void treat_floats(ImageHeader& header, const FileVoxels& voxels, const ReadImageOptions& options) {
+  with_type(header.component, [&](const auto* type) {
+    using T = std::remove_const_t<std::remove_pointer_t<decltype(type)>>;
+    if constexpr (std::is_floating_point_v<T>) {
+      auto* const values = static_cast<T*>(data_of(voxels));
+      const std::size_t count = formats::voxel_bytes(header) / sizeof(T);
+      const std::size_t zeroed = header.non_finite_is_background ? zero_what_is_no_number(values, count) : 0;
+      if (zeroed > 0) {
+        header.warnings.push_back(std::to_string(zeroed) +
+                                  " voxels are no finite number; they are background");
+      }
+      if (options.round_values) {
+        round_values(values, count);
+      }
+    }
+  });
+}
+
+/// Values as the header scales them, in double precision.
+FileVoxels scaled(ImageHeader& header, FileVoxels voxels) {
+  if (header.slope == 1 && header.intercept == 0) {
+    return voxels;
+  }
+  const std::size_t count = formats::voxel_bytes(header) / formats::bytes_of(header.component);
+  VoxelBytes wide(0, count * sizeof(double));
+  auto* const to = reinterpret_cast<double*>(wide.data());
+  with_type(header.component, [&](const auto* type) {
+    const auto* const from = static_cast<decltype(type)>(data_of(voxels));
+#pragma omp parallel for schedule(static)
+    for (std::size_t v = 0; v < count; ++v) {
+      to[v] = header.slope * static_cast<double>(from[v]) + header.intercept;
+    }
+  });
+  header.component = Component::float64;
+  return wide;
+}
+
+/// Voxels of one byte are not copied: those in memory are overwritten by their materials, and those of a
+/// mapped file stay there when they are materials already.
+template <typename T>
+void classify(FileVoxels voxels, LabelImage& image, const fs::path& path) {
+  const std::size_t count = image.frame.voxel_count();
+  Classifier<T> classifier(static_cast<const T*>(data_of(voxels)), count, subject_of(path));
+  classifier.find_labels(image);
+  if constexpr (sizeof(T) == 1) {
+    const bool in_memory = std::holds_alternative<VoxelBytes>(voxels);
+    if (in_memory && !classifier.values_are_materials()) {
+      classifier.look_up(static_cast<std::uint8_t*>(data_of(voxels)));
+    }
+    if (in_memory || classifier.values_are_materials()) {
+      image.voxels = LabelVoxels(std::move(voxels), count);
+      return;
+    }
+  }
+  image.voxels = classifier.voxels();
+}
+
+/// Header and voxels of a file, its frame checked. Throws InputError with the file's name.
+struct FileImage {
+  ImageHeader header;
+  ImageFrame frame;
+  FileVoxels voxels;
+};
+
+FileImage read_file(const fs::path& path, const ReadImageOptions& options) {
+  require_file(path);
+  try {
+    ImageHeader header = formats::read_image_header(path);
+    ImageFrame frame = frame_of(header);
+    require_usable_frame(frame, subject_of(path), options.accept_shear, &header.warnings);
+    FileVoxels voxels = voxels_of_file(header);
+    treat_floats(header, voxels, options);
+    voxels = scaled(header, std::move(voxels));
+    return {std::move(header), frame, std::move(voxels)};
+  } catch (const formats::FormatError& error) {
+    fail(path, error.what());
+  } catch (const fs::filesystem_error& error) {
+    fail(path, error.code().message());
+  }
+}
+
+}  // namespace
+
+LabelImage read_label_image(const fs::path& path, const ReadImageOptions& options,
+                            std::vector<std::string>* warnings) {
+  FileImage file = read_file(path, options);
+  LabelImage image;
+  image.frame = file.frame;
+  with_type(file.header.component, [&](const auto* type) {
+    using T = std::remove_const_t<std::remove_pointer_t<decltype(type)>>;
+    classify<T>(std::move(file.voxels), image, path);
+  });
+  if (image.labels.size() < 2) {
+    fail(path, "every voxel is background (0); there is nothing to mesh");
+  }
+  for (std::size_t w = 0; warnings != nullptr && w < file.header.warnings.size(); ++w) {
+    warnings->push_back("'" + path.string() + "': " + file.header.warnings[w]);
+  }
+  return image;
+}
+
+GreyImage read_grey_image(const fs::path& path) {
+  const FileImage file = read_file(path, {});
+  GreyImage image{file.frame, std::vector<float>(file.frame.voxel_count())};
+  with_type(file.header.component, [&](const auto* type) {
+    const auto* const from = static_cast<decltype(type)>(data_of(file.voxels));
+    std::transform(from, from + image.values.size(), image.values.begin(),
+                   [](auto value) { return static_cast<float>(value); });
+  });
+  return image;
+}
+
+std::string format_of_image(const fs::path& path) {
+  require_file(path);
+  try {
+    return formats::read_image_header(path).format;
+  } catch (const formats::FormatError& error) {
+    fail(path, error.what());
+  }
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,38 @@
+// The faults that VTK reports, taken instead of printed.
+#pragma once
+
+#include <vtkCommand.h>
+#include <vtkLogger.h>
+
+#include <string>
+
+namespace cbc3d {
+
+/// VTK reports faults through observers, not exceptions.
+class VtkFaults : public vtkCommand {
+ public:
+  static VtkFaults* New() { return new VtkFaults; }
+  void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* data) override {
+    if (text.empty() && data != nullptr) {
+      text = static_cast<const char*>(data);
+    }
+  }
+  std::string text;  ///< of the first fault
+};
+
+/// VTK also prints its faults itself, in many lines; this silences it, so that the user gets our one
+/// line.
+class VtkSilence {
+ public:
+  VtkSilence() : before_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~VtkSilence() { vtkLogger::SetStderrVerbosity(before_); }
+  VtkSilence(const VtkSilence&) = delete;
+  VtkSilence& operator=(const VtkSilence&) = delete;
+
+ private:
+  vtkLogger::Verbosity before_;
+};
+
+}  // namespace cbc3d

@@ -1,0 +1,16 @@
+// VTK's readers, which fail on damaged files, kept apart from everything else.
+#pragma once
+
+#include <filesystem>
+
+#include "mesher/core/mesh.hpp"
+
+namespace cbc3d {
+
+enum class VtkFormat { xml, legacy };
+
+/// Reads an unstructured grid by VTK in a child process, whose memory and time are limited by the size of the
+/// file, and checks what comes of it. Throws InputError: one line, whatever the reader does.
+Mesh read_vtk(const std::filesystem::path& path, VtkFormat format);
+
+}  // namespace cbc3d
