@@ -20,21 +20,12 @@ std::string budget_name(const std::string& case_name, std::int64_t budget) {
   return case_name + ", " + format_number(static_cast<double>(budget), 0) + " elements";
 }
 
-/// Why a column has no figure at a budget, or not at the budget itself.
-std::string reason_of(const Runs& runs) {
-  for (const JobResult* run : runs) {
-    if (!run->is_ok()) {
-      return failure_of(*run);
-    }
-    if (!run->budget_shortfall.empty()) {
-      return run->budget_shortfall;
-    }
+Cell factor_cell(double factor, metrics::Worse worse) {
+  if (std::isinf(factor)) {
+    return text_cell(worse == metrics::Worse::lower ? "infinite: this is 0 or below"
+                                                    : "infinite: the best has 0");
   }
-  return runs.empty() ? "not run" : "";
-}
-
-Cell factor_cell(double factor) {
-  return std::isinf(factor) ? text_cell("infinite: the best has 0") : number_cell(factor, 2);
+  return number_cell(factor, 2);
 }
 
 /// The column of cbc3d; of several thread counts the first.
@@ -73,7 +64,7 @@ class FrontRows {
     for (const std::string& column : columns_.names()) {
       const Runs runs = columns_.runs(row.case_name, column);
       row.cells.push_back(cell_of(runs, metric_id("elements")));
-      row.cells.back().reason = reason_of(runs);
+      row.cells.back().reason = shortfall_of(runs);
     }
     row.cells.resize(columns_.names().size() + 2 + (ours_ ? 1 : 0), text_cell(""));
     return row;
@@ -86,11 +77,11 @@ class FrontRows {
       const auto& value = compared.values[column];
       row.cells.push_back(value ? number_cell(*value, metric.decimals) : Cell{});
       if (!value) {
-        row.cells.back().reason = reason_of(columns_.runs(row.case_name, columns_.names()[column]));
+        row.cells.back().reason = shortfall_of(columns_.runs(row.case_name, columns_.names()[column]));
       }
     }
     row.cells.push_back(text_cell(columns_.names()[*compared.best]));
-    row.cells.push_back(factor_cell(compared.lead));
+    row.cells.push_back(factor_cell(compared.lead, metric.worse));
     if (ours_) {
       row.cells.push_back(loss_cell(compared));
     }
@@ -101,7 +92,7 @@ class FrontRows {
     if (!compared.values[*ours_]) {
       return text_cell("no such mesh");
     }
-    return factor_cell(loss_of(compared, *ours_));
+    return factor_cell(loss_of(compared, *ours_), metrics::metric(compared.id).worse);
   }
 
  private:
