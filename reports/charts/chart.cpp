@@ -14,7 +14,7 @@ namespace cbc3d::reports {
 namespace {
 
 constexpr double kWidth = 680, kHeight = 410;
-constexpr double kLeft = 70, kRight = 16, kTop = 40, kPlotBottom = 300;
+constexpr double kLeft = 70, kRight = 36, kTop = 40, kPlotBottom = 300;
 constexpr double kLegendLine = 20;
 
 /// Distinct for the colour-blind too (Okabe and Ito), then repeated.
@@ -300,16 +300,20 @@ struct Plane {
   }
 };
 
+/// Large numbers with separators, of which none is mistaken for a tenth of it.
+std::string plane_tick_text(double tick) {
+  return tick < 1000 ? tick_text(tick) : format_number(tick, 0);
+}
+
 std::string plane_axes(const Scatter& scatter, const Plane& plane) {
   std::string svg = text(kWidth / 2, 22, scatter.title, "middle", 16);
   for (const double tick : plane.y_axis.ticks()) {
-    const std::string name = tick < 1000 ? tick_text(tick) : format_number(tick, 0);
     svg += line(kLeft, plane.y(tick), kWidth - kRight, plane.y(tick), "#d8d8d8");
-    svg += text(kLeft - 6, plane.y(tick) + 4, name, "end", 12);
+    svg += text(kLeft - 6, plane.y(tick) + 4, plane_tick_text(tick), "end", 12);
   }
   for (const double tick : plane.x_axis.ticks()) {
     svg += line(plane.x(tick), kTop, plane.x(tick), kPlotBottom, "#d8d8d8");
-    svg += text(plane.x(tick), kPlotBottom + 17, tick_text(tick), "middle", 13);
+    svg += text(plane.x(tick), kPlotBottom + 17, plane_tick_text(tick), "middle", 13);
   }
   svg += line(kLeft, kPlotBottom, kWidth - kRight, kPlotBottom, "#333");
   svg += line(kLeft, kTop, kLeft, kPlotBottom, "#333");

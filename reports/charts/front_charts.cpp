@@ -14,7 +14,9 @@ using metrics::MetricId;
 
 /// What a front is drawn over.
 struct FrontAxis {
-  std::string name, title;
+  std::string name;   ///< in the names of files
+  std::string words;  ///< in titles
+  std::string title;  ///< of the axis
   FigureOf figure;
 };
 
@@ -24,9 +26,9 @@ std::optional<double> unknowns_of(const JobResult& result) {
 }
 
 std::vector<FrontAxis> front_axes() {
-  return {{"elements", "elements", shown_figure(metric_id("elements"))},
-          {"unknowns", "unknowns (vertices inside)", unknowns_of},
-          {"seconds", "CPU time of meshing (s)", shown_figure(metric_id("time_s.cpu"))}};
+  return {{"elements", "elements", "elements", shown_figure(metric_id("elements"))},
+          {"unknowns", "unknowns", "unknowns (vertices inside)", unknowns_of},
+          {"seconds", "CPU time", "CPU time of meshing (s)", shown_figure(metric_id("time_s.cpu"))}};
 }
 
 /// A key as a part of a file's name.
@@ -54,7 +56,7 @@ Scatter front_of(const std::vector<JobResult>& results, const Columns& columns, 
                  MetricId id, const FrontAxis& axis) {
   const metrics::Metric& metric = metrics::metric(id);
   Scatter scatter;
-  scatter.title = case_name + ": " + std::string(words(metric)) + " over " + axis.name;
+  scatter.title = case_name + ": " + std::string(words(metric)) + " over " + axis.words;
   scatter.x_title = axis.title;
   scatter.y_title = title(metric);
   for (const std::string& column : columns.names()) {

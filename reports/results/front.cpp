@@ -49,14 +49,13 @@ FrontComparison compared(const std::string& case_name, std::int64_t budget, Metr
     }
   }
   double lead = std::numeric_limits<double>::infinity();
-  bool has_rival = false;
   for (std::size_t column = 0; column < row.values.size(); ++column) {
     if (row.values[column] && column != row.best) {
       lead = std::min(lead, times_worse(*row.values[column], *row.values[*row.best], worse));
-      has_rival = true;
+      row.has_rival = true;
     }
   }
-  row.lead = has_rival ? lead : 1;
+  row.lead = row.has_rival ? lead : 1;
   return row;
 }
 

@@ -60,6 +60,7 @@ struct FrontComparison {
   std::vector<std::optional<double>> values;  ///< of the columns
   std::optional<std::size_t> best;            ///< column; none: no column has the figure
   double lead = 1;                            ///< by which factor the second best is worse
+  bool has_rival = false;                     ///< there is a second best
 };
 
 /// All comparisons of a run, by case, budget and figure; figures that no column has are left out.

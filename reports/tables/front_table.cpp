@@ -13,11 +13,20 @@ namespace {
 using metrics::metric_id;
 
 constexpr const char* kOurs = "cbc3d";
+constexpr const char* kAlone = "no other mesh";
 /// Factors that show as 1.00 are none.
 constexpr double kLeastLoss = 1.005;
 
 std::string budget_name(const std::string& case_name, std::int64_t budget) {
   return case_name + ", " + format_number(static_cast<double>(budget), 0) + " elements";
+}
+
+/// Why there is no figure at a budget: the solver's reason where the mesh is there and was not solved.
+std::string reason_of(const Runs& runs, const metrics::Metric& metric) {
+  const JobResult* good = first_good(runs);
+  return good != nullptr && metric.key.starts_with("solver.") && !good->solver_reason.empty()
+             ? good->solver_reason
+             : shortfall_of(runs);
 }
 
 Cell factor_cell(double factor, metrics::Worse worse) {
@@ -77,11 +86,11 @@ class FrontRows {
       const auto& value = compared.values[column];
       row.cells.push_back(value ? number_cell(*value, metric.decimals) : Cell{});
       if (!value) {
-        row.cells.back().reason = shortfall_of(columns_.runs(row.case_name, columns_.names()[column]));
+        row.cells.back().reason = reason_of(columns_.runs(row.case_name, columns_.names()[column]), metric);
       }
     }
     row.cells.push_back(text_cell(columns_.names()[*compared.best]));
-    row.cells.push_back(factor_cell(compared.lead, metric.worse));
+    row.cells.push_back(compared.has_rival ? factor_cell(compared.lead, metric.worse) : text_cell(kAlone));
     if (ours_) {
       row.cells.push_back(loss_cell(compared));
     }
@@ -91,6 +100,9 @@ class FrontRows {
   [[nodiscard]] Cell loss_cell(const FrontComparison& compared) const {
     if (!compared.values[*ours_]) {
       return text_cell("no such mesh");
+    }
+    if (!compared.has_rival) {
+      return text_cell(kAlone);
     }
     return factor_cell(loss_of(compared, *ours_), metrics::metric(compared.id).worse);
   }
