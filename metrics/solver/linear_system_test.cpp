@@ -41,8 +41,8 @@ TEST(LinearSystem, LargestEigenvalueOfALineIsTheKnownOne) {
   EXPECT_EQ(largest_scaled_eigenvalue(SparseMatrix(0, 0)), 0);
 }
 
-// Conjugate gradients end in the step for the last of the eigenvalues in the right-hand side; the steps before it are
-// counted.
+// Conjugate gradients end in the step for the last of the eigenvalues in the right-hand side; the steps
+// before it are counted.
 TEST(LinearSystem, IterationsFollowTheEigenvaluesOfTheRightSide) {
   constexpr int kSize = 60;
   const SparseMatrix matrix = line(kSize, one);
