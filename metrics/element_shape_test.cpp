@@ -145,6 +145,20 @@ TEST(ElementShape, DistributionsAreThoseOfTheSortedValues) {
   check(ratios[0], *shape.all.mean_ratio);
 }
 
+TEST(ElementShape, EdgeRatiosOfAThousandTets) {
+  // 985 corners, whose ratio is sqrt(2), and 15 that are 3, 4, ... 17 times as high.
+  Mesh mesh;
+  for (int n = 0; n < 1000; ++n) {
+    auto tet = kCorner;
+    tet[3].z = n < 985 ? 1 : n - 982;
+    add_tet(mesh, tet, 3.0 * n, 2);
+  }
+  const auto ratios = test::judge(mesh, test::two_boxes(), {false, false})["quality"]["edge_ratio"];
+  EXPECT_NEAR(ratios["median"].get<double>(), std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(ratios["p99"].get<double>(), std::sqrt(1 + 7.0 * 7), 1e-6);  // the fifth of the fifteen
+  EXPECT_NEAR(ratios["max"].get<double>(), std::sqrt(1 + 17.0 * 17), 1e-5);
+}
+
 TEST(ElementShape, MixedMeshHasItsKindsApart) {
   Mesh mesh;
   add_tet(mesh, kCorner, 0, 2);

@@ -45,6 +45,15 @@ TEST(Gradation, PlantedHub) {
   }
 }
 
+TEST(Gradation, PercentilesOfAHub) {
+  // 99 % of 127 vertices are 126 of them: the ring's 125 and one of the two poles; of 302 the ring alone.
+  EXPECT_EQ(*gradation_of(hub(125)).valence_p99, 126);
+  EXPECT_EQ(*gradation_of(hub(300)).valence_p99, 4);
+  // The ring's vertices, nearly all, have the edges sqrt(2) and the side of the ring.
+  const double side = 2 * std::sin(M_PI / 300);
+  EXPECT_NEAR(*gradation_of(hub(300)).vertex_edge_ratio_p99, std::sqrt(2.0) / side, 1e-4);
+}
+
 TEST(Gradation, SizeRatioIsThatOfLengths) {
   Mesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -8}};

@@ -132,17 +132,57 @@ TEST(SurfaceShape, CubeHasEdgesOfExactly90Degrees) {
   EXPECT_TRUE(found.places.empty());
 }
 
-TEST(SurfaceShape, SlabRimIsOffAndOver90) {
-  // Two flat hexagonal pyramids base to base: at the rim the angle is 180 less twice the slope.
-  constexpr double kHeight = .2;
+// Two flat pyramids over a regular polygon, base to base.
+Star lens_of(int corners, double height) {
   Star lens;
-  lens.points = {{0, 0, kHeight}, {0, 0, -kHeight}};
-  for (int n = 0; n < 6; ++n) lens.points.push_back({std::cos(M_PI * n / 3), std::sin(M_PI * n / 3), 0});
-  for (VertexId n = 0; n < 6; ++n) {
-    const VertexId a = 2 + n, b = 2 + (n + 1) % 6;
+  lens.points = {{0, 0, height}, {0, 0, -height}};
+  for (int n = 0; n < corners; ++n) {
+    lens.points.push_back({std::cos(2 * M_PI * n / corners), std::sin(2 * M_PI * n / corners), 0});
+  }
+  for (int n = 0; n < corners; ++n) {
+    const auto a = static_cast<VertexId>(2 + n), b = static_cast<VertexId>(2 + (n + 1) % corners);
     lens.facets.push_back({0, a, b});
     lens.facets.push_back({1, b, a});
   }
+  return lens;
+}
+
+TEST(SurfaceShape, FacetsOfAFlatLensAreOffTheirVerticesNormals) {
+  // At the rim the normals are radial, at the poles upright. Of n corners the mean of a facet's three normals
+  // leans by atan(2 cos(pi / n)) from the axis, the facet by its slope.
+  const double lean = std::atan(2 * std::cos(M_PI / 24)) * 180 / M_PI;
+  for (const double height : {.02, .1}) {
+    const double slope = std::atan(height / std::cos(M_PI / 24)) * 180 / M_PI;
+    const bool is_off = lean - slope > 60;
+    EXPECT_EQ(is_off, height == .02);
+    const auto surface =
+        test::judge(mesh_of(lens_of(24, height), 10, kCentre), ball_image(), {false, false})["surface"];
+    EXPECT_EQ(surface["facets_off_normal_60_percent"], is_off ? 100.0 : 0.0);
+    EXPECT_EQ(surface["facets_off_corner_60_percent"], 100.0);
+    EXPECT_EQ(surface["facets_over_120_deg"], 24);
+  }
+}
+
+TEST(SurfaceShape, PercentilesOfALargeCube) {
+  // Of 18 * 16^2 edges one in 24 is an edge of the cube: the 95th percentile is 0, the 99th is 90
+  // degrees.
+  LabelImage image = test::empty_image({20, 20, 20}, {1, 1, 1}, {0, 1});
+  test::fill_box(image, {2, 2, 2}, {17, 17, 17}, 1);
+  const auto surface = test::judge(test::kuhn_mesh(image), image, {false, false})["surface"];
+  EXPECT_EQ(surface["facet_angle_p95_deg"], 0.0);
+  EXPECT_NEAR(surface["facet_angle_p99_deg"].get<double>(), 90, 1e-9);
+  EXPECT_NEAR(surface["facet_angle_rms_deg"].get<double>(), 90 * std::sqrt(12 * 16 / (18.0 * 16 * 16)), 1e-9);
+  EXPECT_EQ(surface["facets_over_60_deg"], 12 * 16);
+  EXPECT_EQ(surface["facets_over_90_deg"], 0);
+  EXPECT_EQ(surface["facets_over_120_deg"], 0);
+  for (const char* key : {"min", "p1", "median"}) {
+    EXPECT_NEAR(surface["facet_mean_ratio"][key].get<double>(), std::sqrt(3.0) / 2, 1e-7) << key;
+  }
+}
+
+TEST(SurfaceShape, SlabRimIsOffAndOver90) {
+  constexpr double kHeight = .2;
+  const Star lens = lens_of(6, kHeight);
   const double slope = std::atan(kHeight / std::cos(M_PI / 6)) * 180 / M_PI;
   LabelImage plate = test::empty_image({41, 41, 41}, {1, 1, 1}, {0, 1});
   test::fill_box(plate, {10, 10, 20}, {30, 30, 20}, 1);
@@ -186,6 +226,11 @@ TEST(SurfaceShape, PlacesAreNamed) {
   EXPECT_EQ(surface["per_label"][0]["label"], 1);
   EXPECT_EQ(surface["per_label"][0]["places_not_asked"], 1);
   EXPECT_EQ(surface["per_label"][0]["facet_angle_rms_deg"], surface["facet_angle_rms_deg"]);
+  star.points[300] = .1 * star.points[300];
+  const auto pit =
+      test::judge(mesh_of(star, kRadius, kCentre), ball_image(), {false, false})["surface"]["places"];
+  EXPECT_EQ(pit["pits"], 1);
+  EXPECT_EQ(pit["spikes"], 0);
 }
 
 TEST(SurfaceShape, QuadFacets) {

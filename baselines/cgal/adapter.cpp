@@ -39,6 +39,11 @@ SizeDial size_dial() {
           .followers = {{"facet-size", 0.8}, {"facet-distance", 0.8}}};
 }
 
+/// What baselines/tune found (README.md, tuned.csv).
+std::map<std::string, std::string> tuned() {
+  return {{"cell-size", "2.5"}, {"facet-distance", "0.25"}, {"facet-size", "1.5"}};
+}
+
 /// `libraries`: what the program is built with; `packages`: the Debian packages that have them.
 Adapter make(const std::string& name, const std::string& description, const std::string& libraries,
              const std::string& packages) {
@@ -49,6 +54,7 @@ Adapter make(const std::string& name, const std::string& description, const std:
   adapter.licence = "GPL-3.0-or-later";
   adapter.parameters = ParameterSource(parameters());
   adapter.size_dial = [](const std::filesystem::path&) { return size_dial(); };
+  adapter.parameter_sets["tuned"] = tuned();
   adapter.availability = [=](const std::filesystem::path& bin_dir) {
     return executable_availability(
         bin_dir, executable, "built without " + libraries + ": install " + packages + " and build again");

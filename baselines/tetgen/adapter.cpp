@@ -29,6 +29,8 @@ Adapter tetgen_adapter() {
   adapter.size_dial = [](const std::filesystem::path&) {
     return SizeDial{.parameter = "max-volume", .exponent = -1, .first = 8, .lowest = 1e-6, .highest = 1e6};
   };
+  // What baselines/tune found (README.md, tuned.csv).
+  adapter.parameter_sets["tuned"] = {{"smoothing-steps", "10"}, {"reach", "0.45"}};
   adapter.availability = [](const std::filesystem::path& bin_dir) {
     return executable_availability(bin_dir, "cbc3d-mesher-tetgen",
                                    "built without TetGen: install libtet1.5-dev and build again");

@@ -41,6 +41,20 @@ TEST(LinearSystem, LargestEigenvalueOfALineIsTheKnownOne) {
   EXPECT_EQ(largest_scaled_eigenvalue(SparseMatrix(0, 0)), 0);
 }
 
+// Conjugate gradients end in the step for the last of the eigenvalues in the right-hand side; the steps
+// before it are counted.
+TEST(LinearSystem, IterationsFollowTheEigenvaluesOfTheRightSide) {
+  constexpr int kSize = 60;
+  const SparseMatrix matrix = line(kSize, one);
+  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(kSize);
+  for (int count = 1; count <= 4; ++count) {
+    for (int i = 0; i < kSize; ++i) {
+      right_side[i] += std::sin(std::numbers::pi * (9 * count) * (i + 1) / (kSize + 1));
+    }
+    EXPECT_EQ(solve(matrix, right_side).iterations, count - 1);
+  }
+}
+
 TEST(LinearSystem, SolutionsAreTheSameBytesAtAnyThreadCount) {
   const SparseMatrix matrix = line(500, uneven);
   const Eigen::VectorXd right_side = Eigen::VectorXd::LinSpaced(500, 0, 1);

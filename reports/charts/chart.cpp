@@ -14,7 +14,7 @@ namespace cbc3d::reports {
 namespace {
 
 constexpr double kWidth = 680, kHeight = 410;
-constexpr double kLeft = 70, kRight = 16, kTop = 40, kPlotBottom = 300;
+constexpr double kLeft = 70, kRight = 36, kTop = 40, kPlotBottom = 300;
 constexpr double kLegendLine = 20;
 
 /// Distinct for the colour-blind too (Okabe and Ito), then repeated.
@@ -252,12 +252,7 @@ std::string document(const Chart& chart, const Scale& scale, const std::string& 
 /// One axis of a plane: from values to the share of its length.
 class Axis {
  public:
-  Axis(std::vector<double> values, bool logarithmic, std::optional<double> limit)
-      : logarithmic_(logarithmic) {
-    if (limit) {
-      values.push_back(kRoom * *limit);
-      values.push_back(*limit);
-    }
+  Axis(const std::vector<double>& values, bool logarithmic) : logarithmic_(logarithmic) {
     const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
     ticks_ = logarithmic_ ? steps_of_125(*lowest, *highest) : axis_ticks(*highest);
   }
@@ -269,8 +264,6 @@ class Axis {
   [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
 
  private:
-  static constexpr double kRoom = 1.2;  ///< beyond a limit, to show that it is one
-
   /// 1, 2, 5, 10, ... from at most `lowest` to at least `highest`, only powers of ten when these are many.
   static std::vector<double> steps_of_125(double lowest, double highest) {
     constexpr std::size_t kMostTicks = 8;
@@ -307,26 +300,23 @@ struct Plane {
   }
 };
 
+/// Large numbers with separators, of which none is mistaken for a tenth of it.
+std::string plane_tick_text(double tick) {
+  return tick < 1000 ? tick_text(tick) : format_number(tick, 0);
+}
+
 std::string plane_axes(const Scatter& scatter, const Plane& plane) {
   std::string svg = text(kWidth / 2, 22, scatter.title, "middle", 16);
   for (const double tick : plane.y_axis.ticks()) {
-    const std::string name = tick < 1000 ? tick_text(tick) : format_number(tick, 0);
     svg += line(kLeft, plane.y(tick), kWidth - kRight, plane.y(tick), "#d8d8d8");
-    svg += text(kLeft - 6, plane.y(tick) + 4, name, "end", 12);
+    svg += text(kLeft - 6, plane.y(tick) + 4, plane_tick_text(tick), "end", 12);
   }
   for (const double tick : plane.x_axis.ticks()) {
     svg += line(plane.x(tick), kTop, plane.x(tick), kPlotBottom, "#d8d8d8");
-    svg += text(plane.x(tick), kPlotBottom + 17, tick_text(tick), "middle", 13);
+    svg += text(plane.x(tick), kPlotBottom + 17, plane_tick_text(tick), "middle", 13);
   }
   svg += line(kLeft, kPlotBottom, kWidth - kRight, kPlotBottom, "#333");
   svg += line(kLeft, kTop, kLeft, kPlotBottom, "#333");
-  if (scatter.x_limit) {
-    svg += line(plane.x(*scatter.x_limit), kTop, plane.x(*scatter.x_limit), kPlotBottom, "#555", 1.5, true);
-  }
-  if (scatter.y_limit) {
-    svg +=
-        line(kLeft, plane.y(*scatter.y_limit), kWidth - kRight, plane.y(*scatter.y_limit), "#555", 1.5, true);
-  }
   return svg + text(14, (kTop + kPlotBottom) / 2, scatter.y_title, "middle", 14, -90) +
          text((kLeft + kWidth - kRight) / 2, kPlotBottom + 40, scatter.x_title, "middle", 14);
 }
@@ -377,7 +367,7 @@ Plane plane_of(const Scatter& scatter) {
       ys.push_back(y);
     }
   }
-  return {Axis(xs, scatter.logarithmic_x, scatter.x_limit), Axis(ys, scatter.logarithmic_y, scatter.y_limit)};
+  return {Axis(xs, scatter.logarithmic_x), Axis(ys, scatter.logarithmic_y)};
 }
 
 }  // namespace

@@ -43,7 +43,6 @@ struct Scatter {
   std::string x_title, y_title;
   std::vector<PointSeries> series;
   bool logarithmic_x = false, logarithmic_y = false;  ///< then values must be > 0
-  std::optional<double> x_limit, y_limit;             ///< dashed lines there
   bool joined = false;                                ///< lines from point to point, in their order
   std::string note;                                   ///< small, beneath
 };

@@ -14,7 +14,9 @@ using metrics::MetricId;
 
 /// What a front is drawn over.
 struct FrontAxis {
-  std::string name, title;
+  std::string name;   ///< in the names of files
+  std::string words;  ///< in titles
+  std::string title;  ///< of the axis
   FigureOf figure;
 };
 
@@ -24,9 +26,9 @@ std::optional<double> unknowns_of(const JobResult& result) {
 }
 
 std::vector<FrontAxis> front_axes() {
-  return {{"elements", "elements", shown_figure(metric_id("elements"))},
-          {"unknowns", "unknowns (vertices inside)", unknowns_of},
-          {"seconds", "meshing time (s)", shown_figure(metric_id("time_s.mesh"))}};
+  return {{"elements", "elements", "elements", shown_figure(metric_id("elements"))},
+          {"unknowns", "unknowns", "unknowns (vertices inside)", unknowns_of},
+          {"seconds", "CPU time", "CPU time of meshing (s)", shown_figure(metric_id("time_s.cpu"))}};
 }
 
 /// A key as a part of a file's name.
@@ -35,13 +37,6 @@ std::string file_name(std::string_view key) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == '.' || c == '_'; }, '-');
   return name;
-}
-
-FigureOf magnitude_of(MetricId id) {
-  return [shown = shown_figure(id)](const JobResult& result) {
-    const auto value = shown(result);
-    return value ? std::optional(std::abs(*value)) : std::nullopt;
-  };
 }
 
 /// True when a logarithmic axis has something to show: all values positive and of different sizes.
@@ -61,12 +56,12 @@ Scatter front_of(const std::vector<JobResult>& results, const Columns& columns, 
                  MetricId id, const FrontAxis& axis) {
   const metrics::Metric& metric = metrics::metric(id);
   Scatter scatter;
-  scatter.title = case_name + ": " + std::string(words(metric)) + " over " + axis.name;
+  scatter.title = case_name + ": " + std::string(words(metric)) + " over " + axis.words;
   scatter.x_title = axis.title;
   scatter.y_title = title(metric);
   for (const std::string& column : columns.names()) {
     PointSeries series{column,
-                       front_points(results, columns, case_name, column, axis.figure, magnitude_of(id))};
+                       front_points(results, columns, case_name, column, axis.figure, compared_figure(id))};
     if (!series.points.empty()) {
       scatter.series.push_back(std::move(series));
     }
@@ -86,7 +81,7 @@ std::vector<Figure> front_charts(const std::vector<JobResult>& results) {
   for (const std::string& case_name : image_names(results)) {
     for (const MetricId id : front_figures()) {
       for (const FrontAxis& axis : front_axes()) {
-        const bool is_time_over_time = id == metric_id("time_s.mesh") && axis.name == "seconds";
+        const bool is_time_over_time = id == metric_id("time_s.cpu") && axis.name == "seconds";
         const Scatter scatter = front_of(results, columns, case_name, id, axis);
         if (!is_time_over_time && !scatter.series.empty()) {
           figures.push_back(

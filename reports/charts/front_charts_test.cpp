@@ -10,7 +10,7 @@ namespace {
 Json budget_line(const std::string& mesher, int budget, double seconds, double distance_mm) {
   Json line = job_line("liver", mesher, budget);
   line["budget"] = budget;
-  line["time_s"]["mesh"] = seconds;
+  line["time_s"]["cpu"] = seconds;
   line["quality"]["inner_vertices"] = budget / 6;
   line["fidelity"]["mean_distance_mm"] = distance_mm;
   return line;
@@ -33,8 +33,8 @@ TEST(FrontCharts, EveryFigureIsDrawnOverElementsUnknownsAndSeconds) {
     EXPECT_EQ(figure->svg.find("nan"), std::string::npos);
     EXPECT_EQ(figure->svg.find("inf"), std::string::npos);
   }
-  EXPECT_NE(find(figures, "front-liver-time-s-mesh-elements"), nullptr);
-  EXPECT_EQ(find(figures, "front-liver-time-s-mesh-seconds"), nullptr);
+  EXPECT_NE(find(figures, "front-liver-time-s-cpu-elements"), nullptr);
+  EXPECT_EQ(find(figures, "front-liver-time-s-cpu-seconds"), nullptr);
   EXPECT_NE(find(figures, "front-liver-fidelity-mean-distance-mm-unknowns")->svg.find("cgal: 666, 0.1"),
             std::string::npos);
 }

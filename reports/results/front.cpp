@@ -49,7 +49,7 @@ std::optional<FrontComparison> compared(const std::string& case_name, std::int64
                                         const std::vector<FrontCurve>& curves) {
   FrontComparison row{.case_name = case_name, .budget = budget, .id = id, .values = {}};
   const Worse worse = metrics::metric(id).worse;
-  bool has_best = false, has_rival = false;
+  bool has_best = false;
   for (const FrontCurve& curve : curves) {
     const auto value = curve.at(static_cast<double>(budget));
     row.values.push_back(value);
@@ -63,10 +63,10 @@ std::optional<FrontComparison> compared(const std::string& case_name, std::int64
   for (std::size_t column = 0; column < row.values.size(); ++column) {
     if (const auto& value = row.values[column]; value && column != row.best) {
       lead = std::min(lead, times_worse(*value, row.best_value, worse));
-      has_rival = true;
+      row.has_rival = true;
     }
   }
-  row.lead = has_rival ? lead : 1;
+  row.lead = row.has_rival ? lead : 1;
   return has_best ? std::optional(row) : std::nullopt;
 }
 
@@ -78,8 +78,18 @@ std::span<const MetricId> front_figures() {
       metric_id("fidelity.hausdorff_mm"),         metric_id("quality.mean_ratio.p1"),
       metric_id("quality.mean_ratio.median"),     metric_id("surface.facet_angle_rms_deg"),
       metric_id("solver.poisson_p1.h1_relative"), metric_id("topology.differences"),
-      metric_id("volume_error_percent"),          metric_id("time_s.mesh")};
+      metric_id("volume_error_percent"),          metric_id("time_s.cpu")};
   return kFigures;
+}
+
+FigureOf compared_figure(MetricId id) {
+  if (metrics::metric(id).worse == Worse::lower) {
+    return shown_figure(id);
+  }
+  return [shown = shown_figure(id)](const JobResult& result) {
+    const auto value = shown(result);
+    return value ? std::optional(std::abs(*value)) : std::nullopt;
+  };
 }
 
 FrontCurve::FrontCurve(Points points) {
@@ -125,7 +135,7 @@ FrontCurve::Points front_points(const std::vector<JobResult>& results, const Col
 FrontCurve front_curve(const std::vector<JobResult>& results, const Columns& columns,
                        const std::string& case_name, const std::string& column, MetricId id) {
   return FrontCurve(front_points(results, columns, case_name, column, shown_figure(metric_id("elements")),
-                                 magnitude_of(id)));
+                                 compared_figure(id)));
 }
 
 double times_worse(double value, double other, Worse worse) {
@@ -133,7 +143,10 @@ double times_worse(double value, double other, Worse worse) {
   if (more == less) {
     return 1;
   }
-  return less == 0 ? std::numeric_limits<double>::infinity() : more / less;
+  if (less <= 0) {
+    return more > less ? std::numeric_limits<double>::infinity() : 0;
+  }
+  return std::max(0.0, more / less);
 }
 
 std::vector<FrontComparison> front_comparisons(const std::vector<JobResult>& results,
@@ -157,6 +170,18 @@ std::vector<FrontComparison> front_comparisons(const std::vector<JobResult>& res
     rows.insert(rows.end(), of_case.begin(), of_case.end());
   }
   return rows;
+}
+
+std::string shortfall_of(const Runs& runs) {
+  for (const JobResult* run : runs) {
+    if (!run->is_ok()) {
+      return failure_of(*run);
+    }
+    if (!run->budget_shortfall.empty()) {
+      return run->budget_shortfall;
+    }
+  }
+  return runs.empty() ? "not run" : "";
 }
 
 std::vector<std::int64_t> budgets_of(const std::vector<JobResult>& results, const std::string& case_name) {

@@ -17,6 +17,10 @@ namespace cbc3d::reports {
 /// The figures that are compared at equal elements, in the order of the tables.
 std::span<const metrics::MetricId> front_figures();
 
+/// A metric's figure in the unit in which it is shown, by its magnitude where more is worse: an error of
+/// volume of -2 % is as bad as one of 2 %, a mean ratio of -.2 is not as good as one of .2.
+FigureOf compared_figure(metrics::MetricId id);
+
 /// A figure over the number of elements, known at some numbers.
 class FrontCurve {
  public:
@@ -34,8 +38,8 @@ class FrontCurve {
   Points points_;
 };
 
-/// The curve of a metric, in the unit in which it is shown and as a magnitude, for a case and a column: the
-/// runs that are ok and have a budget, repeats of a budget by their medians.
+/// The curve of a metric (compared_figure) for a case and a column: the runs that are ok and have a budget,
+/// repeats of a budget by their medians.
 FrontCurve front_curve(const std::vector<JobResult>& results, const Columns& columns,
                        const std::string& case_name, const std::string& column, metrics::MetricId id);
 
@@ -44,8 +48,8 @@ FrontCurve::Points front_points(const std::vector<JobResult>& results, const Col
                                 const std::string& case_name, const std::string& column, const FigureOf& x,
                                 const FigureOf& y);
 
-/// By which factor a figure is worse than another: at least 1 when `value` is worse, infinite when `other` is
-/// 0 and `value` is worse. `worse` is higher or lower.
+/// By which factor a figure is worse than another: at least 1 when `value` is worse, infinite when the better
+/// of two errors is 0 or the worse of two qualities is 0 or below. `worse` is higher or lower.
 double times_worse(double value, double other, metrics::Worse worse);
 
 /// A metric of a case at a budget for every column.
@@ -57,10 +61,15 @@ struct FrontComparison {
   std::size_t best = 0;                       ///< column with the best value
   double best_value = 0;
   double lead = 1;  ///< by which factor the second best is worse
+  bool has_rival = false;  ///< there is a second best
 };
 
 /// All comparisons of a run, by case, budget and figure; figures that no column has are left out.
 std::vector<FrontComparison> front_comparisons(const std::vector<JobResult>& results, const Columns& columns);
+
+/// Why the runs of a case, a budget and a column have no figure at the budget, or no mesh of that size: the
+/// failure, else why the budget was not met; empty: there is such a mesh.
+std::string shortfall_of(const Runs& runs);
 
 /// The budgets of a case, ascending.
 std::vector<std::int64_t> budgets_of(const std::vector<JobResult>& results, const std::string& case_name);

@@ -48,6 +48,30 @@ TEST(TimesWorse, KnowsBothDirectionsAndZero) {
   EXPECT_EQ(times_worse(0, 0, Worse::higher), 1);
   EXPECT_TRUE(std::isinf(times_worse(5, 0, Worse::higher)));
   EXPECT_EQ(times_worse(0, 5, Worse::higher), 0);
+  // Qualities of inverted elements are negative.
+  EXPECT_TRUE(std::isinf(times_worse(-.2, .3, Worse::lower)));
+  EXPECT_TRUE(std::isinf(times_worse(-.5, -.2, Worse::lower)));
+  EXPECT_EQ(times_worse(.3, -.2, Worse::lower), 0);
+  EXPECT_EQ(times_worse(-.2, -.5, Worse::lower), 0);
+}
+
+TEST(ComparedFigure, IsAMagnitudeWhereMoreIsWorse) {
+  JobResult job;
+  job.figures[metric_id("volume_error_percent")] = -2;
+  job.figures[metric_id("quality.mean_ratio.p1")] = -.2;
+  EXPECT_EQ(compared_figure(metric_id("volume_error_percent"))(job), 2);
+  EXPECT_EQ(compared_figure(metric_id("quality.mean_ratio.p1"))(job), -.2);
+}
+
+TEST(ShortfallOf, SaysWhyThereIsNoMeshOfThatSize) {
+  JobResult ok = result("a", 1000, 1000, 1), missed = ok, failed = ok;
+  missed.budget_shortfall = "no fewer than 5,000 elements";
+  failed.status = "crashed";
+  failed.reason = "SIGSEGV";
+  EXPECT_EQ(shortfall_of({}), "not run");
+  EXPECT_EQ(shortfall_of({&ok}), "");
+  EXPECT_EQ(shortfall_of({&missed}), "no fewer than 5,000 elements");
+  EXPECT_EQ(shortfall_of({&failed}), "crashed: SIGSEGV");
 }
 
 TEST(FrontComparisons, CompareAtExactlyEqualElements) {

@@ -13,6 +13,7 @@ namespace {
 using metrics::metric_id;
 
 constexpr const char* kOurs = "cbc3d";
+constexpr const char* kAlone = "no other mesh";
 /// Factors that show as 1.00 are none.
 constexpr double kLeastLoss = 1.005;
 
@@ -20,21 +21,20 @@ std::string budget_name(const std::string& case_name, std::int64_t budget) {
   return case_name + ", " + format_number(static_cast<double>(budget), 0) + " elements";
 }
 
-/// Why a column has no figure at a budget, or not at the budget itself.
-std::string reason_of(const Runs& runs) {
-  for (const JobResult* run : runs) {
-    if (!run->is_ok()) {
-      return failure_of(*run);
-    }
-    if (!run->budget_shortfall.empty()) {
-      return run->budget_shortfall;
-    }
-  }
-  return runs.empty() ? "not run" : "";
+/// Why there is no figure at a budget: the solver's reason where the mesh is there and was not solved.
+std::string reason_of(const Runs& runs, const metrics::Metric& metric) {
+  const JobResult* good = first_good(runs);
+  return good != nullptr && metric.key.starts_with("solver.") && !good->solver_reason.empty()
+             ? good->solver_reason
+             : shortfall_of(runs);
 }
 
-Cell factor_cell(double factor) {
-  return std::isinf(factor) ? text_cell("infinite: the best has 0") : number_cell(factor, 2);
+Cell factor_cell(double factor, metrics::Worse worse) {
+  if (std::isinf(factor)) {
+    return text_cell(worse == metrics::Worse::lower ? "infinite: this is 0 or below"
+                                                    : "infinite: the best has 0");
+  }
+  return number_cell(factor, 2);
 }
 
 /// The column of cbc3d; of several thread counts the first.
@@ -57,7 +57,10 @@ double loss_of(const FrontComparison& row, std::size_t column) {
 }
 
 Cell loss_cell(const FrontComparison& row, std::size_t column) {
-  return row.values[column] ? factor_cell(loss_of(row, column)) : text_cell("no such mesh");
+  if (!row.values[column]) {
+    return text_cell("no such mesh");
+  }
+  return row.has_rival ? factor_cell(loss_of(row, column), metrics::metric(row.id).worse) : text_cell(kAlone);
 }
 
 class FrontRows {
@@ -77,7 +80,7 @@ class FrontRows {
     for (const std::string& column : columns_.names()) {
       const Runs runs = columns_.runs(row.case_name, column);
       row.cells.push_back(cell_of(runs, metric_id("elements")));
-      row.cells.back().reason = reason_of(runs);
+      row.cells.back().reason = shortfall_of(runs);
     }
     row.cells.resize(columns_.names().size() + 2 + (ours_ ? 1 : 0), text_cell(""));
     return row;
@@ -90,11 +93,11 @@ class FrontRows {
       const auto& value = compared.values[column];
       row.cells.push_back(value ? number_cell(*value, metric.decimals) : Cell{});
       if (!value) {
-        row.cells.back().reason = reason_of(columns_.runs(row.case_name, columns_.names()[column]));
+        row.cells.back().reason = reason_of(columns_.runs(row.case_name, columns_.names()[column]), metric);
       }
     }
     row.cells.push_back(text_cell(columns_.names()[compared.best]));
-    row.cells.push_back(factor_cell(compared.lead));
+    row.cells.push_back(compared.has_rival ? factor_cell(compared.lead, metric.worse) : text_cell(kAlone));
     if (ours_) {
       row.cells.push_back(loss_cell(compared, *ours_));
     }

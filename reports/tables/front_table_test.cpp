@@ -39,6 +39,24 @@ TEST(FrontTable, SaysWhoIsBestAndByWhichFactor) {
   EXPECT_EQ(*row_of(table, "mean ratio, median").cells[5].value, 1.5);
 }
 
+TEST(FrontTable, AFigureOfOneMesherHasNoFactor) {
+  std::vector<Json> lines = three_meshers();
+  lines[0]["topology"]["differences"] = 3;
+  const Table table = table_of(front_table, lines);
+  const std::string name = "liver, 1,000 elements", figure = "topology differences";
+  EXPECT_EQ(text_in(table, name, figure, 3), "cbc3d");
+  EXPECT_EQ(text_in(table, name, figure, 4), "no other mesh");
+  EXPECT_EQ(text_in(table, name, figure, 5), "no other mesh");
+}
+
+TEST(FrontTable, AMeshThatWasNotSolvedSaysWhy) {
+  std::vector<Json> lines = three_meshers();
+  lines[0]["solver"] = {{"poisson_p1", {{"h1_relative", .3}}}, {"reason", ""}};
+  lines[1]["solver"] = {{"poisson_p1", nullptr}, {"reason", "not solved: no convergence"}};
+  const Table table = table_of(front_table, lines);
+  EXPECT_EQ(row_of(table, "P1 H1 error").cells[1].reason, "not solved: no convergence");
+}
+
 TEST(FrontTable, LossesAreSortedAndNotHidden) {
   std::vector<Json> lines = three_meshers();
   lines[0]["topology"]["differences"] = 3;

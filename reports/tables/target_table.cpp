@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/results/front.hpp"
 #include "reports/tables/cells.hpp"
 
 namespace cbc3d::reports {
@@ -41,16 +42,66 @@ std::string with_unit(double value, const Metric& metric) {
   return format_number(value, metric.decimals) + (unit.empty() ? "" : " " + unit);
 }
 
-/// A metric of one case: the figures of all columns, and the best of them.
+constexpr MetricId kElements = metrics::metric_id("summary.elements");
+
+/// The meshes that are compared with each other: those of a case, or of a budget of it.
+struct Group {
+  std::string name;  ///< of the rows
+  std::string case_name;
+  std::optional<std::int64_t> budget;
+};
+
+std::vector<Group> groups_of(const std::vector<JobResult>& results) {
+  std::vector<Group> groups;
+  for (const std::string& name : case_names(results)) {
+    const auto first = std::find_if(results.begin(), results.end(),
+                                    [&](const JobResult& result) { return row_name(result) == name; });
+    groups.push_back({name, first->case_name, first->budget});
+  }
+  return groups;
+}
+
+/// The results in their columns.
+struct Compared {
+  const std::vector<JobResult>& results;
+  const Columns& columns;
+};
+
+/// The figure of the meshes themselves.
+Cell own_cell(const Compared& all, const Group& group, const std::string& column, MetricId id) {
+  const Runs runs = all.columns.runs(group.name, column);
+  Cell cell = cell_of(runs, id);
+  cell.where = cell.value ? where_of(runs, id) : "";
+  if (group.budget && cell.reason.empty()) {
+    cell.reason = shortfall_of(runs);
+  }
+  return cell;
+}
+
+/// The figure at exactly the budget, where there is one.
+Cell cell_at_budget(const Compared& all, const Group& group, const std::string& column, MetricId id) {
+  const FrontCurve curve = front_curve(all.results, all.columns, group.case_name, column, id);
+  const auto value = curve.at(static_cast<double>(*group.budget));
+  const Cell own = own_cell(all, group, column, id);
+  Cell cell = value ? number_cell(*value, -1) : Cell{};
+  cell.reason = own.reason;
+  cell.where = value ? own.where : "";
+  return cell;
+}
+
+Cell compared_cell(const Compared& all, const Group& group, const std::string& column, MetricId id) {
+  return group.budget && id != kElements ? cell_at_budget(all, group, column, id)
+                                         : own_cell(all, group, column, id);
+}
+
+/// A metric of one group: the figures of all columns, and the best of them.
 class Comparison {
  public:
-  Comparison(const Columns& columns, const std::string& case_name, MetricId id)
-      : metric_(metrics::metric(id)), case_name_(case_name) {
-    for (const std::string& column : columns.names()) {
-      const Runs runs = columns.runs(case_name, column);
-      cells_.push_back(without_signs(cell_of(runs, id)));
-      cells_.back().where = cells_.back().value ? where_of(runs, id) : "";
-      add_to_best(cells_.back());
+  Comparison(const Group& group, MetricId id, std::vector<Cell> cells)
+      : metric_(metrics::metric(id)), case_name_(group.name), cells_(std::move(cells)) {
+    for (Cell& cell : cells_) {
+      cell = without_signs(std::move(cell));
+      add_to_best(cell);
     }
   }
 
@@ -138,12 +189,20 @@ Cell kinds_cell(const std::vector<Row>& rows, std::size_t column) {
   return cell;
 }
 
-std::vector<Row> purpose_rows(const Columns& columns, const std::string& case_name) {
+std::vector<Cell> compared_cells(const Compared& all, const Group& group, MetricId id) {
+  std::vector<Cell> cells;
+  for (const std::string& column : all.columns.names()) {
+    cells.push_back(compared_cell(all, group, column, id));
+  }
+  return cells;
+}
+
+std::vector<Row> purpose_rows(const Compared& all, const Group& group) {
   std::vector<Row> rows;
   for (const Purpose purpose : kPurposes) {
     for (const MetricId id : metrics::all_metrics()) {
       if (metrics::metric(id).purpose == purpose) {
-        const Comparison comparison(columns, case_name, id);
+        const Comparison comparison(group, id, compared_cells(all, group, id));
         // Where no solver was asked its rows would be dashes alone.
         if (purpose != Purpose::solver || comparison.is_measured()) rows.push_back(comparison.row());
       }
@@ -152,33 +211,63 @@ std::vector<Row> purpose_rows(const Columns& columns, const std::string& case_na
   return rows;
 }
 
-std::vector<Row> fault_rows(const Columns& columns, const std::string& case_name) {
+std::vector<Row> fault_rows(const Compared& all, const Group& group) {
   std::vector<Row> rows;
   for (const MetricId id : metrics::all_metrics()) {
     if (metrics::metric(id).purpose == Purpose::hard_fault) {
-      rows.push_back(Comparison(columns, case_name, id).faults());
+      std::vector<Cell> cells;
+      for (const std::string& column : all.columns.names()) {
+        cells.push_back(own_cell(all, group, column, id));
+      }
+      rows.push_back(Comparison(group, id, std::move(cells)).faults());
     }
   }
-  Row sum{case_name, "hard faults, kinds", 0, {}};
-  for (std::size_t column = 0; column < columns.names().size(); ++column) {
+  Row sum{group.name, "hard faults, kinds", 0, {}};
+  for (std::size_t column = 0; column < all.columns.names().size(); ++column) {
     sum.cells.push_back(kinds_cell(rows, column));
   }
   rows.push_back(std::move(sum));
   return rows;
 }
 
+/// "nidus: 12,345 (cbc3d), 98,765 (cgal)"; empty where the group has no two meshes.
+std::string counts_text(const Compared& all, const Group& group) {
+  std::string text;
+  int meshes = 0;
+  for (const std::string& column : all.columns.names()) {
+    if (const Cell cell = own_cell(all, group, column, kElements); cell.value) {
+      text += (meshes++ == 0 ? "" : ", ") + format_number(*cell.value, 0) + " (" + column + ")";
+    }
+  }
+  return meshes < 2 ? "" : group.name + ": " + text;
+}
+
+std::string title_of(const Compared& all, const std::vector<Group>& groups) {
+  std::string unequal;
+  bool has_budgets = false;
+  for (const Group& group : groups) {
+    has_budgets = has_budgets || group.budget.has_value();
+    if (const std::string counts = group.budget ? "" : counts_text(all, group); !counts.empty()) {
+      unequal += (unequal.empty() ? "" : "; ") + counts;
+    }
+  }
+  return "Every figure as a multiple of the best one's of the meshers compared here (1 is best; the figure "
+         "in brackets), "
+         "and the hard faults of the meshes themselves" +
+         std::string(has_budgets ? ". Figures at a budget are interpolated to exactly so many elements"
+                                 : "") +
+         (unequal.empty() ? "" : ". Not at equal elements, which are: " + unequal);
+}
+
 }  // namespace
 
 Table target_table(const TableInput& input) {
   const Columns columns(input.results);
-  Table table{
-      .name = "targets",
-      .title =
-          "Every figure as a multiple of the best one's of the meshers compared here (1 is best; not at "
-          "equal element counts; the figure in brackets), and the hard faults",
-      .columns = columns.names()};
-  for (const std::string& case_name : case_names(input.results)) {
-    for (const auto& rows : {purpose_rows(columns, case_name), fault_rows(columns, case_name)}) {
+  const Compared all{input.results, columns};
+  const std::vector<Group> groups = groups_of(input.results);
+  Table table{.name = "targets", .title = title_of(all, groups), .columns = columns.names()};
+  for (const Group& group : groups) {
+    for (const auto& rows : {purpose_rows(all, group), fault_rows(all, group)}) {
       table.rows.insert(table.rows.end(), rows.begin(), rows.end());
     }
   }

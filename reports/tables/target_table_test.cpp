@@ -88,6 +88,46 @@ TEST(TargetTable, HardFaultsStandApart) {
   EXPECT_FALSE(row_of(targets, "hard fault: inverted elements").cells[1].missed);
 }
 
+Json budget_line(const std::string& mesher, int budget, int elements, double distance_mm) {
+  Json line = compared_line(mesher, 20, .5, elements);
+  line["budget"] = budget;
+  line["counts"]["tets"] = elements;
+  line["fidelity"]["mean_distance_mm"] = distance_mm;
+  return line;
+}
+
+TEST(TargetTable, BudgetsAreComparedAtExactlyEqualElements) {
+  // Both distances are c / elements, with c twice as large for cgal, whose meshes miss the budgets.
+  std::vector<Json> lines;
+  for (const int budget : {10000, 40000}) {
+    lines.push_back(budget_line("cbc3d", budget, budget, 1e4 / budget));
+    lines.push_back(budget_line("cgal", budget, budget * 19 / 20, 2e4 / (budget * .95)));
+  }
+  Json floor = budget_line("tetgen", 10000, 90000, .01);
+  floor["size_search"] = {{"met", false}, {"reason", "no fewer than 90,000 elements at max-volume=8"}};
+  floor["summary"]["inverted"] = 2;
+  lines.push_back(floor);
+  const Table targets = table_of(target_table, lines);
+  const std::string name = "nidus, 10,000 elements", distance = "distance: mean surface distance (mm)";
+  EXPECT_EQ(text_in(targets, name, distance, 0), "1.00 (1.000 mm)");
+  EXPECT_EQ(text_in(targets, name, distance, 1), "2.00 (2.000 mm)");
+  EXPECT_EQ(text_in(targets, name, distance, 2), "-");
+  EXPECT_EQ(row_of(targets, distance).cells[2].reason, "no fewer than 90,000 elements at max-volume=8");
+  EXPECT_EQ(text_in(targets, name, "count: elements", 2), "9.47 (90,000)");
+  EXPECT_EQ(row_of(targets, "hard fault: inverted elements").cells[2].value, 2);
+  EXPECT_NE(targets.title.find("interpolated to exactly so many elements"), std::string::npos)
+      << targets.title;
+  EXPECT_EQ(targets.title.find("Not at equal elements"), std::string::npos) << targets.title;
+}
+
+TEST(TargetTable, WithoutBudgetsTheTitleHasTheCounts) {
+  const Table targets =
+      table_of(target_table, {compared_line("cbc3d", 20, .5, 3000), compared_line("cgal", 16, -1.25, 12000)});
+  EXPECT_NE(targets.title.find("Not at equal elements, which are: nidus: 3,000 (cbc3d), 12,000 (cgal)"),
+            std::string::npos)
+      << targets.title;
+}
+
 TEST(TargetTable, SolverIsThereWhereItWasAsked) {
   Json a = job_line("nidus", "cbc3d", 10), b = job_line("nidus", "cgal", 10);
   a["solver"] = {{"poisson_p1", {{"h1_relative", .3}}}, {"reason", ""}};
