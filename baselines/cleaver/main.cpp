@@ -5,6 +5,7 @@
 #include "baselines/cleaver/cleaver_mesher.hpp"
 #include "baselines/core/driver.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/runtime.hpp"
 
 namespace {
 
@@ -27,6 +28,8 @@ CleaverOptions options_of(const ParameterValues& values) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cbc3d::let_waiting_threads_sleep(argv);
+  cbc3d::keep_freed_memory();
   cbc3d::baselines::MesherProgram program;
   program.adapter = cbc3d::baselines::cleaver_adapter();
   program.versions = {{"cleaver", "of this project"}};

@@ -8,8 +8,7 @@ namespace cbc3d::baselines::cleaver {
 Octree::Octree(const LatticeGrid& grid) : grid_(grid) {
   divided_.resize(static_cast<std::size_t>(grid.top_level) + 1);
   for (int level = 1; level <= grid.top_level; ++level) {
-    const char value = level > grid.usual_level ? 0 : 0;
-    divided_[static_cast<std::size_t>(level)] = CellArray<char>(grid.cells_of_level(level), value);
+    divided_[static_cast<std::size_t>(level)] = CellArray<char>(grid.cells_of_level(level), 0);
   }
 }
 
