@@ -17,8 +17,8 @@ constexpr float kAnySize = 1e9F;
 // kHalfRidge on, it may be one of two cells between which the axis runs. The values are the original's.
 constexpr double kRidge = 2.75;
 constexpr double kHalfRidge = 0.8;
-// The original marches its distances from the smooth boundary, which makes them larger than those between cells
-// and its cells larger. These factors give its element counts on real images (see README.md).
+// The original marches its distances from the smooth boundary, which makes them larger than those between
+// cells and its cells larger. These factors give its element counts on real images (see README.md).
 constexpr double kFeatureFactor = 1.9;
 constexpr double kGrowthFactor = 1.5;
 
