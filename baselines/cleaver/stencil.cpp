@@ -31,12 +31,11 @@ class Cleaver {
   void append(const MixedTet& mixed, Chunk& chunk) const {
     const TetState state = state_of(cut_, mixed);
     const TetPieces pieces = pieces_of(state);
-    if (pieces.count == 1) return append_whole(mixed, state, pieces.pieces[0], chunk);
     const auto quad = static_cast<VertexId>(kChunkQuad + chunk.quads.size());
     bool used = false;
     for (std::size_t n = 0; n < pieces.count; ++n) {
       const TetPiece& piece = pieces.pieces[n];
-      const MaterialId material = cut_.materials[state.nodes[piece.corner]];
+      const MaterialId material = material_of(mixed, state, piece, pieces.quad_place);
       if (material == kBackground && !keeps_background_) continue;
       used = true;
       add(mixed, piece, quad, material, chunk);
@@ -44,26 +43,23 @@ class Cleaver {
     if (used && pieces.uses_quad) chunk.quads.push_back(pieces.quad_place);
   }
 
-  // A tet whose cuts all are at its corners is of one material: that of the corners that have not been moved
-  // onto its boundary, or what its middle is.
-  void append_whole(const MixedTet& mixed, const TetState& state, const TetPiece& piece, Chunk& chunk) const {
+  // A corner that no cut has been snapped to is inside its material, and so are the pieces at it: corners of
+  // several such materials are in no common piece. Other pieces are of the material that goes along their
+  // edge up to its cut; where that edge has none it may lie in a boundary, and the piece's middle decides.
+  [[nodiscard]] MaterialId material_of(const MixedTet& mixed, TetState state, const TetPiece& piece,
+                                       const Vec3& quad_place) const {
     std::array<bool, 4> on_boundary{};
     for (std::size_t e = 0; e < 6; ++e) {
-      if (mixed.cuts[e] != kNone) on_boundary[state.cut_at[e]] = true;
+      if (mixed.cuts[e] != kNone && state.cut_at[e] < 4) on_boundary[state.cut_at[e]] = true;
     }
-    int known = -1;
-    bool agree = true;
-    for (std::size_t n = 0; n < 4; ++n) {
-      const int material = cut_.materials[state.nodes[n]];
-      if (on_boundary[n]) continue;
-      agree = agree && (known < 0 || known == material);
-      known = material;
+    for (const std::uint8_t p : piece.points) {
+      if (p < 4 && !on_boundary[p]) return cut_.materials[state.nodes[p]];
     }
+    if (mixed.cuts[piece.edge] != kNone) return cut_.materials[state.nodes[piece.corner]];
+    state.places[kQuad] = quad_place;
     Vec3 middle{};
-    for (std::size_t n = 0; n < 4; ++n) middle += state.places[n] / 4;
-    const MaterialId material =
-        known >= 0 && agree ? static_cast<MaterialId>(known) : indicators_.material_at(middle);
-    if (material != kBackground || keeps_background_) add(mixed, piece, kNoVertex, material, chunk);
+    for (const std::uint8_t p : piece.points) middle += state.places[p] / 4;
+    return indicators_.material_at(middle);
   }
 
   void add(const MixedTet& mixed, const TetPiece& piece, VertexId quad, MaterialId material,

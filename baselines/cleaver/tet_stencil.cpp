@@ -65,6 +65,7 @@ std::uint8_t point_of_triple(const CutLattice& cut, const MixedTet& mixed, const
 struct Flag {
   std::array<std::uint8_t, 3> points;
   std::uint8_t corner;
+  std::uint8_t edge;
   std::uint8_t face;
 
   [[nodiscard]] bool has(std::uint8_t p) const { return points[0] == p || points[1] == p || points[2] == p; }
@@ -74,9 +75,9 @@ struct Flags {
   std::array<Flag, 24> flags;
   std::size_t count = 0;
 
-  void add(std::uint8_t corner, std::uint8_t b, std::uint8_t c, std::size_t face) {
+  void add(std::uint8_t corner, std::uint8_t b, std::uint8_t c, std::uint8_t edge, std::size_t face) {
     if (corner == b || corner == c || b == c) return;
-    flags[count++] = {{corner, b, c}, corner, static_cast<std::uint8_t>(face)};
+    flags[count++] = {{corner, b, c}, corner, edge, static_cast<std::uint8_t>(face)};
   }
 };
 
@@ -86,9 +87,10 @@ Flags flags_of(const TetState& state) {
     const std::uint8_t triple = state.triple_at[f];
     for (std::size_t n = 0; n < 3; ++n) {
       const std::uint8_t v = kTetFace[f][n], w = kTetFace[f][(n + 1) % 3];
-      const std::uint8_t cut = state.cut_at[kEdgeBetween[v][w]];
-      all.add(v, cut, triple, f);
-      all.add(w, triple, cut, f);
+      const std::uint8_t edge = kEdgeBetween[v][w];
+      const std::uint8_t cut = state.cut_at[edge];
+      all.add(v, cut, triple, edge, f);
+      all.add(w, triple, cut, edge, f);
     }
   }
   return all;
@@ -182,8 +184,9 @@ TetPieces pieces_of(const TetState& given) {
   pieces.quad_place = state.places[kQuad];
   for (std::size_t n = 0; n < flags.count; ++n) {
     const Flag& flag = flags.flags[n];
-    if (!flag.has(quad))
-      pieces.pieces[pieces.count++] = {{flag.points[0], flag.points[1], flag.points[2], quad}, flag.corner};
+    if (flag.has(quad)) continue;
+    pieces.pieces[pieces.count++] = {
+        {flag.points[0], flag.points[1], flag.points[2], quad}, flag.corner, flag.edge};
   }
   return pieces;
 }

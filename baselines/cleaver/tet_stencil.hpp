@@ -15,7 +15,8 @@ inline constexpr std::uint8_t kQuad = 14;
 
 struct TetPiece {
   std::array<std::uint8_t, 4> points;
-  std::uint8_t corner;  ///< whose material the piece has
+  std::uint8_t corner;  ///< whose material the piece has, if it lies along an edge that is cut
+  std::uint8_t edge;    ///< along which it lies, at that corner
 };
 
 /// A tet with its cuts and triples where they have come to be.

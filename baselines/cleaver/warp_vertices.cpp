@@ -71,6 +71,7 @@ class Warp {
 
  private:
   static constexpr int kRounds = 8;
+  static constexpr float kLeastFraction = 0.02F;
 
   [[nodiscard]] bool has_moved(VertexId v) const {
     return cut_.lattice.points[v] != start_[v];
@@ -125,10 +126,13 @@ class Warp {
     const auto& p = cut_.lattice.points;
     const auto t = static_cast<float>(indicators.crossing(
         p[cut.first], p[cut.second], cut_.materials[cut.first], cut_.materials[cut.second]));
-    const float to_second = 1 - t;
     cut.fraction = std::clamp(t, cut.alpha_first, 1 - cut.alpha_second);
-    if (t < cut.alpha_first / 2) cut.place = CutPlace::kAtFirst;
-    if (to_second < cut.alpha_second / 2) cut.place = CutPlace::kAtSecond;
+    // What is beyond the image's box stays out of the mesh, and the sides of the mesh on the box.
+    const bool leaves_box = indicators.is_outside(p[cut.second]),
+               enters_box = indicators.is_outside(p[cut.first]);
+    if (leaves_box || enters_box) cut.fraction = std::clamp(t, kLeastFraction, 1 - kLeastFraction);
+    if (t < cut.alpha_first / 2 && !enters_box) cut.place = CutPlace::kAtFirst;
+    if (1 - t < cut.alpha_second / 2 && !leaves_box) cut.place = CutPlace::kAtSecond;
   }
 
   CutLattice& cut_;
