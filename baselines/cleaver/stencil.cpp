@@ -30,7 +30,8 @@ class Cleaver {
  private:
   void append(const MixedTet& mixed, Chunk& chunk) const {
     const TetState state = state_of(cut_, mixed);
-    const TetPieces pieces = pieces_of(state);
+    TetPieces pieces = pieces_of(state);
+    if (pieces.uses_quad) keep_quad_on_box(state, pieces);
     const auto quad = static_cast<VertexId>(kChunkQuad + chunk.quads.size());
     bool used = false;
     for (std::size_t n = 0; n < pieces.count; ++n) {
@@ -41,6 +42,25 @@ class Cleaver {
       add(mixed, piece, quad, material, chunk);
     }
     if (used && pieces.uses_quad) chunk.quads.push_back(pieces.quad_place);
+  }
+
+  // Where a corner is beyond the image's box, the quad is on the box, amid the cuts and triples there.
+  void keep_quad_on_box(const TetState& state, TetPieces& pieces) const {
+    for (std::uint8_t corner = 0; corner < 4; ++corner) {
+      if (!indicators_.is_outside(state.places[corner])) continue;
+      Vec3 sum{};
+      int count = 0;
+      for (std::uint8_t p = 4; p < kQuad; ++p) {
+        const bool beside =
+            p < 10 ? kTetEdge[p - 4U][0] == corner || kTetEdge[p - 4U][1] == corner : p - 10 != corner;
+        const bool in_use = p < 10 ? state.cut_at[p - 4U] == p : state.triple_at[p - 10U] == p;
+        if (!beside || !in_use) continue;
+        sum += state.places[p];
+        ++count;
+      }
+      if (count >= 3) pieces.quad_place = sum / count;
+      return;
+    }
   }
 
   // A corner that no cut has been snapped to is inside its material, and so are the pieces at it: corners of

@@ -60,6 +60,16 @@ class Warp {
     }
   }
 
+  // A vertex that had to stay beyond the image's box gives its cuts back, for they are on the box.
+  void release_cuts_outside(const Indicators& indicators) {
+    const auto is_outside = [&](VertexId v) { return indicators.is_outside(cut_.lattice.points[v]); };
+    for (Cut& cut : cut_.cuts) {
+      const bool outside = (cut.place == CutPlace::kAtFirst && is_outside(cut.first)) ||
+                           (cut.place == CutPlace::kAtSecond && is_outside(cut.second));
+      if (outside) cut.place = CutPlace::kWithin;
+    }
+  }
+
   void find_cuts_again(const Indicators& indicators) {
 #pragma omp parallel for schedule(dynamic, 512)
     for (std::size_t c = 0; c < cut_.cuts.size(); ++c) {
@@ -147,6 +157,7 @@ void warp_vertices(CutLattice& cut, const Indicators& indicators) {
   Warp warp(cut);
   warp.snap();
   warp.keep_tets_good();
+  warp.release_cuts_outside(indicators);
   warp.find_cuts_again(indicators);
 }
 
