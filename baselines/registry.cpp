@@ -6,6 +6,7 @@
 #define CBC3D_MESHER_FOLDERS(FOLDER) \
   FOLDER(cbc3d)                      \
   FOLDER(cgal)                       \
+  FOLDER(cleaver)                    \
   FOLDER(tetgen)
 
 namespace cbc3d::baselines {

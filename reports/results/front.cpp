@@ -37,13 +37,6 @@ double interpolated(const std::pair<double, double>& a, const std::pair<double, 
                                       : a.second + share * (b.second - a.second);
 }
 
-FigureOf magnitude_of(MetricId id) {
-  return [shown = shown_figure(id)](const JobResult& result) {
-    const auto value = shown(result);
-    return value ? std::optional(std::abs(*value)) : std::nullopt;
-  };
-}
-
 /// None: no column has the figure.
 std::optional<FrontComparison> compared(const std::string& case_name, std::int64_t budget, MetricId id,
                                         const std::vector<FrontCurve>& curves) {
