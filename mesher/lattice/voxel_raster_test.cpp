@@ -42,6 +42,23 @@ TEST(VoxelRaster, EveryVoxelLiesInExactlyOneTet) {
   }
 }
 
+TEST(VoxelRaster, PartsOfVoxelsAreThoseOfTheFinerImage) {
+  const LabelImage image = testing::make_image({8, 7, 6}, {1, 1, 2}, 1, [](const Vec3&) { return 1; });
+  Lattice lattice = build_bcc_lattice(image, {4, 0.5});
+  refine_at_random(lattice, 2, 5, 10);
+  const LatticeTets tets = extract_tets(lattice);
+  const VoxelRaster raster(image.frame, lattice.frame, {2, 2, 4});
+  std::vector<int> hits(image.voxels.size() * 16, 0);
+  for (const auto& n : tets.nodes) {
+    raster.for_each_row(
+        {lattice.points[n[0]], lattice.points[n[1]], lattice.points[n[2]], lattice.points[n[3]]},
+        [&](int j, int k, int begin, int end) {
+          for (int i = begin; i < end; ++i) ++hits[static_cast<std::size_t>((k * 14 + j) * 16 + i)];
+        });
+  }
+  EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), static_cast<std::ptrdiff_t>(hits.size()));
+}
+
 TEST(VoxelRaster, AgreesWithAPointInTetTest) {
   const LabelImage image =
       testing::make_image({16, 16, 16}, {0.9, 1.1, 1.3}, 1, [](const Vec3&) { return 1; });
