@@ -6,7 +6,8 @@
 #define CBC3D_MESHER_FOLDERS(FOLDER) \
   FOLDER(cbc3d)                      \
   FOLDER(cgal)                       \
-  FOLDER(tetgen)
+  FOLDER(tetgen)                     \
+  FOLDER(ld)
 
 namespace cbc3d::baselines {
 
