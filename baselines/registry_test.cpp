@@ -28,7 +28,7 @@ TEST(Registry, HoldsEveryMesherOnceAndThoseOfTheTablesInTheirOrder) {
   const Argv names = names_of_registry();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   auto next = names.begin();
-  for (const char* name : {"cbc3d", "cbc3d-paper", "cbc3d-mixed", "cgal", "cgal-parallel", "tetgen"}) {
+  for (const char* name : {"cbc3d", "cbc3d-paper", "cbc3d-mixed", "cgal", "cgal-parallel", "tetgen", "ld"}) {
     next = std::find(next, names.end(), name);
     ASSERT_NE(next, names.end()) << name;
   }

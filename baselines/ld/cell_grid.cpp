@@ -14,7 +14,8 @@ std::int64_t orientation(const LatticePoint& a, const LatticePoint& b, const Lat
   for (std::size_t n = 0; n < 3; ++n) {
     for (std::size_t axis = 0; axis < 3; ++axis) e[n][axis] = std::int64_t{(*ends[n])[axis]} - a[axis];
   }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
@@ -48,7 +49,8 @@ void CellGrid::read_row(int begin, int end, int j, int k, MaterialId* materials)
   image_->voxels.visit([&](const auto* voxels) {
     const auto* from = voxels + frame.offset(0, row[1], row[2]);
     if (pieces == 1) {
-      std::copy(from + (first - options_.margin), from + (last - options_.margin), materials + (first - begin));
+      std::copy(from + (first - options_.margin), from + (last - options_.margin),
+                materials + (first - begin));
       return;
     }
     for (int i = first; i < last; ++i) materials[i - begin] = from[(i - options_.margin) / pieces];

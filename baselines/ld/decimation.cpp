@@ -10,13 +10,16 @@ namespace {
 class Decimation {
  public:
   Decimation(LatticeMesh mesh, const CellGrid& grid, const DecimationOptions& options)
-      : options_(options), mesh_(std::move(mesh)), star_(grid.cell_mm() * 0.5), is_queued_(mesh_.vertex_count(), 0) {
+      : options_(options),
+        mesh_(std::move(mesh)),
+        star_(grid.cell_mm() * 0.5),
+        is_queued_(mesh_.vertex_count(), 0) {
     if (!options.keeps_surfaces()) distances_.emplace(grid, mesh_, options.distances);
   }
 
   void run() {
-    for (const double angle : options_.first_min_dihedrals_deg) {
-      if (angle > options_.min_dihedral_deg) run_pass(angle, false);
+    if (options_.first_min_dihedral_deg > options_.min_dihedral_deg) {
+      run_pass(options_.first_min_dihedral_deg, false);
     }
     run_pass(options_.min_dihedral_deg, true);
   }

@@ -9,8 +9,8 @@
 
 namespace cbc3d::baselines::ld {
 
-/// The normals of a tet's faces, each opposite the corner of its number, all outward or all inward, of twice the
-/// face's area. Corners 0, 1, 2 are given relative to corner 3.
+/// The normals of a tet's faces, each opposite the corner of its number, all outward or all inward, of twice
+/// the face's area. Corners 0, 1, 2 are given relative to corner 3.
 inline std::array<Vec3, 4> face_normals(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n0 = b.cross(c);
   const Vec3 n1 = c.cross(a);
@@ -21,8 +21,8 @@ inline std::array<Vec3, 4> face_normals(const Vec3& a, const Vec3& b, const Vec3
 /// Bounds of the dihedral angles of a tet.
 class DihedralBounds {
  public:
-  /// Angles in degrees from `least` to `most`; `most` of 180 bounds nothing. What is accepted keeps a distance
-  /// of 1e-9 radians from the bounds, so that rounding leaves them intact.
+  /// Angles in degrees from `least` to `most`; `most` of 180 bounds nothing. What is accepted keeps a
+  /// distance of 1e-9 radians from the bounds, so that rounding leaves them intact.
   DihedralBounds(double least_deg, double most_deg) {
     constexpr double kGuard = 1e-9;
     const double least = std::cos(std::fmin(least_deg * M_PI / 180 + kGuard, M_PI / 2));

@@ -76,7 +76,8 @@ void DistanceGuard::list_near_faces() {
   const Vec3 cell = grid_.cell_mm();
   const double reach = std::sqrt(squared_mesh_to_image_);
   Index3 cells{};
-  for (int a = 0; a < 3; ++a) cells[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(reach / cell[a])) + 2;
+  for (int a = 0; a < 3; ++a)
+    cells[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(reach / cell[a])) + 2;
   std::vector<std::pair<double, NearFace>> faces;
   for (int k = -cells[2]; k <= cells[2]; ++k) {
     for (int j = -cells[1]; j <= cells[1]; ++j) {
@@ -84,12 +85,14 @@ void DistanceGuard::list_near_faces() {
         for (int axis = 0; axis < 3; ++axis) {
           Vec3 centre{i * cell.x, j * cell.y, k * cell.z};
           centre[axis] += 0.5 * cell[axis];
-          if (centre.norm() <= reach + cell.norm()) faces.push_back({centre.squared_norm(), {{i, j, k}, axis}});
+          if (centre.norm() <= reach + cell.norm())
+            faces.push_back({centre.squared_norm(), {{i, j, k}, axis}});
         }
       }
     }
   }
-  std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [distance, face] : faces) near_faces_.push_back(face);
 }
 
@@ -106,7 +109,9 @@ void DistanceGuard::gather(VertexId v, const Fan& fan) {
       if (at == facet.end()) continue;
       const auto n = static_cast<std::size_t>(at - facet.begin());
       const auto [x, y] = std::minmax(facet[(n + 1) % 3], facet[(n + 2) % 3]);
-      const auto own = std::find_if(fan_.begin(), fan_.end(), [&, low = x, high = y](const FanFacet& f) { return f.x == low && f.y == high; });
+      const auto own = std::find_if(fan_.begin(), fan_.end(), [&, low = x, high = y](const FanFacet& f) {
+        return f.x == low && f.y == high;
+      });
       old_.push_back({p, own->low, own->high});
     }
   }
@@ -139,13 +144,14 @@ bool DistanceGuard::is_near_image(const Triangle& t, const FanFacet& facet, int 
   const Vec3 cell = grid_.cell_mm();
   const Vec3 centre = (t[0] + t[1] + t[2]) / 3;
   Index3 home{};
-  for (int a = 0; a < 3; ++a) home[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(centre[a] / cell[a]));
+  for (int a = 0; a < 3; ++a)
+    home[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(centre[a] / cell[a]));
   bool is_centre_near = false;
   for (const NearFace& near : near_faces_) {
     const Index3 c{home[0] + near.cell[0], home[1] + near.cell[1], home[2] + near.cell[2]};
     Index3 next = c;
     ++next[static_cast<std::size_t>(near.axis)];
-    const auto [low, high] = std::minmax(grid_.at(c[0], c[1], c[2]), grid_.at(next[0], next[1], next[2]));
+    const auto [low, high] = std::minmax({grid_.at(c[0], c[1], c[2]), grid_.at(next[0], next[1], next[2])});
     if (low != facet.low || high != facet.high) continue;
     const auto squared = [&](const Vec3& p) {
       double sum = 0;
@@ -170,7 +176,8 @@ bool DistanceGuard::is_near_image(const Triangle& t, const FanFacet& facet, int 
                      [&](const Triangle& part) { return is_near_image(part, facet, depth + 1); });
 }
 
-bool DistanceGuard::assign(const OldPiece& old, const std::array<LatticePoint, 3>& corners, int depth, VertexId w) {
+bool DistanceGuard::assign(const OldPiece& old, const std::array<LatticePoint, 3>& corners, int depth,
+                           VertexId w) {
   constexpr int kMostCuts = 2;
   std::array<Vec3, 3> p;
   for (std::size_t n = 0; n < 3; ++n) p[n] = mm_of(corners[n]) / BoundaryPiece::kUnitsPerHalfCell;
@@ -185,12 +192,14 @@ bool DistanceGuard::assign(const OldPiece& old, const std::array<LatticePoint, 3
     }
   }
   const bool is_even = std::all_of(corners.begin(), corners.end(), [&](const LatticePoint& c) {
-    return (c[0] - corners[0][0]) % 2 == 0 && (c[1] - corners[0][1]) % 2 == 0 && (c[2] - corners[0][2]) % 2 == 0;
+    return (c[0] - corners[0][0]) % 2 == 0 && (c[1] - corners[0][1]) % 2 == 0 &&
+           (c[2] - corners[0][2]) % 2 == 0;
   });
   if (depth == kMostCuts || !is_even) return false;
   const auto parts = quarters(corners, middle);
-  return std::all_of(parts.begin(), parts.end(),
-                     [&](const std::array<LatticePoint, 3>& part) { return assign(old, part, depth + 1, w); });
+  return std::all_of(parts.begin(), parts.end(), [&](const std::array<LatticePoint, 3>& part) {
+    return assign(old, part, depth + 1, w);
+  });
 }
 
 void DistanceGuard::merge() {

@@ -1,11 +1,11 @@
 // The guards of the distances between the surfaces of mesh and image, in both directions, at every merge.
 //
-// Image to mesh: the boundary of the image is a list of triangular pieces, each with a facet of the mesh between
-// the same two materials that is near all of it: the distance from a convex facet is a convex function, so near
-// the three corners of a piece is near all of it. A merge must find such a facet among the new ones for every
-// piece of those that it changes; a piece may be cut in four for that.
-// Mesh to image: every new facet must be near the voxels' faces between its two materials. It is cut until each
-// part has a face that is near its three corners, and is refused when a part cannot be decided.
+// Image to mesh: the boundary of the image is a list of triangular pieces, each with a facet of the mesh
+// between the same two materials that is near all of it: the distance from a convex facet is a convex
+// function, so near the three corners of a piece is near all of it. A merge must find such a facet among the
+// new ones for every piece of those that it changes; a piece may be cut in four for that. Mesh to image:
+// every new facet must be near the voxels' faces between its two materials. It is cut until each part has a
+// face that is near its three corners, and is refused when a part cannot be decided.
 #pragma once
 
 #include <limits>
@@ -22,8 +22,8 @@ struct SurfaceDistanceBounds {
 
 class DistanceGuard {
  public:
-  /// Both bounds must be more than 0. `mesh` must be one with background, and have pieces; it and the grid must
-  /// outlive the guard.
+  /// Both bounds must be more than 0. `mesh` must be one with background, and have pieces; it and the grid
+  /// must outlive the guard.
   DistanceGuard(const CellGrid& grid, MergeMesh& mesh, const SurfaceDistanceBounds& bounds);
 
   /// Takes the pieces at v's facets, for the questions that follow.
@@ -56,7 +56,9 @@ class DistanceGuard {
     int axis;
   };
 
-  [[nodiscard]] Vec3 mm_of(const LatticePoint& p) const { return {p[0] * half_mm_.x, p[1] * half_mm_.y, p[2] * half_mm_.z}; }
+  [[nodiscard]] Vec3 mm_of(const LatticePoint& p) const {
+    return {p[0] * half_mm_.x, p[1] * half_mm_.y, p[2] * half_mm_.z};
+  }
   void list_near_faces();
   bool set_new_facets(VertexId w);
   bool assign(const OldPiece& old, const std::array<LatticePoint, 3>& corners, int depth, VertexId w);

@@ -29,7 +29,8 @@ class BlockCells {
   [[nodiscard]] CellsAround around(const Index3& corner) const {
     CellsAround around{};
     for (int c = 0; c < 8; ++c) {
-      around[static_cast<std::size_t>(c)] = at({corner[0] - 1 + (c & 1), corner[1] - 1 + (c >> 1 & 1), corner[2] - 1 + (c >> 2)});
+      around[static_cast<std::size_t>(c)] =
+          at({corner[0] - 1 + (c & 1), corner[1] - 1 + (c >> 1 & 1), corner[2] - 1 + (c >> 2)});
     }
     return around;
   }
@@ -44,7 +45,8 @@ class BlockCells {
 
 class BlockFiller {
  public:
-  BlockFiller(const CellGrid& grid, const LabelOctree& octree, const Index3& block, const InitialMeshOptions& options)
+  BlockFiller(const CellGrid& grid, const LabelOctree& octree, const Index3& block,
+              const InitialMeshOptions& options)
       : grid_(grid),
         octree_(octree),
         options_(options),
@@ -97,7 +99,8 @@ class BlockFiller {
     VertexState state{.stratum = stratum_of(around), .normal_axes = normal_axes_of(around)};
     for (std::size_t a = 0; a < 3; ++a) {
       if (cell[a] == low_[a] || cell[a] == low_[a] + grid_.block()) state.is_frozen = true;
-      if (options_.with_background && (cell[a] == 0 || cell[a] == grid_.size()[a])) state.stratum = Stratum::point;
+      if (options_.with_background && (cell[a] == 0 || cell[a] == grid_.size()[a]))
+        state.stratum = Stratum::point;
     }
     return state;
   }

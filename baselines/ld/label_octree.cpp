@@ -31,14 +31,16 @@ void LabelOctree::split_mixed_cells(const CellGrid& grid, Bits& level) {
     for (auto& row : rows) row.resize(row_size);
     for (int j = 0; j < boxes[1]; ++j) {
       for (int r = 0; r < 4; ++r) {
-        grid.read_row(0, grid.size()[0], 2 * j + r % 2, 2 * k + r / 2, rows[static_cast<std::size_t>(r)].data());
+        grid.read_row(0, grid.size()[0], 2 * j + r % 2, 2 * k + r / 2,
+                      rows[static_cast<std::size_t>(r)].data());
       }
       std::uint64_t* bits = level.row(j, k);
       for (std::size_t i = 0; i < row_size / 2; ++i) {
         const MaterialId first = rows[0][2 * i];
         unsigned differs = first ^ rows[0][2 * i + 1];
         for (std::size_t r = 1; r < 4; ++r) {
-          differs |= static_cast<unsigned>(first ^ rows[r][2 * i]) | static_cast<unsigned>(first ^ rows[r][2 * i + 1]);
+          differs |= static_cast<unsigned>(first ^ rows[r][2 * i]) |
+                     static_cast<unsigned>(first ^ rows[r][2 * i + 1]);
         }
         if (differs != 0) bits[i / 64] |= std::uint64_t{1} << (i % 64);
       }
@@ -84,7 +86,8 @@ void LabelOctree::balance(const Bits& below, Bits& level) {
       for (int dk = -1; dk <= 2; ++dk) {
         for (int dj = -1; dj <= 2; ++dj) {
           const Index3 from{0, 2 * j + dj, 2 * k + dk};
-          if (from[1] < 0 || from[2] < 0 || from[1] >= below.size()[1] || from[2] >= below.size()[2]) continue;
+          if (from[1] < 0 || from[2] < 0 || from[1] >= below.size()[1] || from[2] >= below.size()[2])
+            continue;
           const bool is_off_both = (dj < 0 || dj > 1) && (dk < 0 || dk > 1);
           const std::uint64_t* row = below.row(from[1], from[2]);
           auto& sum = is_off_both ? across_edge : near;
@@ -136,8 +139,9 @@ void LabelOctree::append_leaves(const Index3& block, std::vector<Leaf>& leaves) 
       continue;
     }
     for (int part = 7; part >= 0; --part) {
-      open.push_back({box.level - 1,
-                      {2 * box.at[0] + (part & 1), 2 * box.at[1] + (part >> 1 & 1), 2 * box.at[2] + (part >> 2)}});
+      open.push_back(
+          {box.level - 1,
+           {2 * box.at[0] + (part & 1), 2 * box.at[1] + (part >> 1 & 1), 2 * box.at[2] + (part >> 2)}});
     }
   }
 }

@@ -18,13 +18,14 @@ struct Leaf {
   Index3 low{};  ///< its lowest cell
 };
 
-/// The octree of a grid, one bit for each box of two cells or more: an eighth of a bit more than that for every
-/// 8 cells. A box is split when it holds two materials, or when a box that shares a face or an edge with it
-/// would otherwise have neighbours of less than half its size. That is decided from level to level upwards, so
-/// one pass over the boxes suffices.
+/// The octree of a grid, one bit for each box of two cells or more: an eighth of a bit more than that for
+/// every 8 cells. A box is split when it holds two materials, or when a box that shares a face or an edge
+/// with it would otherwise have neighbours of less than half its size. That is decided from level to level
+/// upwards, so one pass over the boxes suffices.
 class LabelOctree {
  public:
-  /// The largest leaves are blocks of the grid. Works in parallel; the result is the same at any thread count.
+  /// The largest leaves are blocks of the grid. Works in parallel; the result is the same at any thread
+  /// count.
   explicit LabelOctree(const CellGrid& grid);
 
   /// Number of levels above the cells; boxes of the topmost are blocks.

@@ -1,5 +1,6 @@
 #include "baselines/ld/lattice_decimation.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -44,7 +45,8 @@ CellGridOptions grid_options(const LabelImage& image, const LatticeDecimationOpt
 }
 
 /// All blocks, each built and decimated by itself, so that few of them stand undecimated at any time.
-LatticeMesh decimated_blocks(const CellGrid& grid, const LabelOctree& octree, const DecimationOptions& options) {
+LatticeMesh decimated_blocks(const CellGrid& grid, const LabelOctree& octree,
+                             const DecimationOptions& options) {
   const bool moves_surfaces = !options.keeps_surfaces();
   const InitialMeshOptions initial{.with_background = moves_surfaces, .with_pieces = moves_surfaces};
   Index3 blocks = grid.size();
@@ -96,7 +98,8 @@ LabelImage cleaned(const LabelImage& image) {
   return clean;
 }
 
-Mesh mesh_clean_image(const LabelImage& image, const LatticeDecimationOptions& options, StageClock& stages) {
+/// The mesh within the bounds of the angles and distances, as the method has it.
+Mesh decimated_lattice(const LabelImage& image, const LatticeDecimationOptions& options, StageClock& stages) {
   stages.start("octree");
   const CellGrid grid(image, grid_options(image, options));
   const LabelOctree octree(grid);
@@ -107,9 +110,26 @@ Mesh mesh_clean_image(const LabelImage& image, const LatticeDecimationOptions& o
   stages.start("whole");
   mesh = decimated(std::move(mesh), grid, options.decimation);
   stages.start("labels");
-  Mesh result = labelled_mesh(mesh, grid);
-  if (result.tets.size() == 0) throw InputError("the image has no labelled voxel; give one with labels");
-  return result;
+  return labelled_mesh(mesh, grid);
+}
+
+/// Distances below a voxel's edge may gain less than the background, which then has to stay valid too, costs.
+bool may_gain_nothing(const LabelImage& image, const DecimationOptions& options) {
+  const double smaller = std::min(options.distances.image_to_mesh_mm, options.distances.mesh_to_image_mm);
+  return !options.keeps_surfaces() && smaller < image.frame.spacing_mm.max_coeff();
+}
+
+/// The exact surfaces are within any distances: where they need no more tets they are what is wanted.
+Mesh mesh_clean_image(const LabelImage& image, const LatticeDecimationOptions& options, StageClock& stages) {
+  Mesh mesh = decimated_lattice(image, options, stages);
+  if (may_gain_nothing(image, options.decimation)) {
+    LatticeDecimationOptions exact = options;
+    exact.decimation.distances = {};
+    Mesh other = decimated_lattice(image, exact, stages);
+    if (other.tets.size() <= mesh.tets.size()) mesh = std::move(other);
+  }
+  if (mesh.tets.size() == 0) throw InputError("the image has no labelled voxel; give one with labels");
+  return mesh;
 }
 
 }  // namespace

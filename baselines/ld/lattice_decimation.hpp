@@ -14,10 +14,10 @@ struct LatticeDecimationOptions {
   int block = 64;     ///< side of the blocks in cells, a power of two, at least 2
 };
 
-/// Meshes an image. The result is in physical space with the image's own labels. What is guaranteed against the
-/// image, cleaned if so wished: no dihedral angle is outside its bounds; the surfaces of every label, and every
-/// interface of two, are within the distances; topology is that of the voxels as closed sets; tets are positive
-/// and conform. Same result at any thread count. Throws InputError where the bounds cannot be met.
+/// Meshes an image. The result is in physical space with the image's own labels. What is guaranteed against
+/// the image, cleaned if so wished: no dihedral angle is outside its bounds; the surfaces of every label, and
+/// every interface of two, are within the distances; topology is that of the voxels as closed sets; tets are
+/// positive and conform. Same result at any thread count. Throws InputError where the bounds cannot be met.
 Mesh mesh_by_lattice_decimation(const LabelImage& image, const LatticeDecimationOptions& options,
                                 StageClock& stages);
 

@@ -30,10 +30,10 @@ struct BoundaryPiece {
 /// Tets, positively oriented, with their materials. No two vertices have the same place.
 struct LatticeMesh {
   std::vector<LatticePoint> points;
-  std::vector<VertexState> states;              ///< of each point
-  std::vector<std::array<VertexId, 4>> tets;    ///< node order as in Mesh
-  std::vector<MaterialId> materials;            ///< of each tet
-  std::vector<BoundaryPiece> pieces;            ///< only when distances are bounded by more than 0
+  std::vector<VertexState> states;            ///< of each point
+  std::vector<std::array<VertexId, 4>> tets;  ///< node order as in Mesh
+  std::vector<MaterialId> materials;          ///< of each tet
+  std::vector<BoundaryPiece> pieces;          ///< only when distances are bounded by more than 0
 };
 
 }  // namespace cbc3d::baselines::ld

@@ -11,9 +11,9 @@ namespace {
 
 /// A square on the face of a leaf, with the axes u and v that follow its normal's in cyclic order.
 struct Square {
-  int level;    // of the leaf that it is the whole face of
-  Index3 low;   // its lowest corner in cells
-  int axis;     // of its normal
+  int level;   // of the leaf that it is the whole face of
+  Index3 low;  // its lowest corner in cells
+  int axis;    // of its normal
   bool is_high;
 };
 
@@ -154,7 +154,8 @@ std::vector<std::array<Vec3, 3>> possible_triangles(int axis) {
 
 }  // namespace
 
-void append_leaf_triangles(const LabelOctree& octree, const Leaf& leaf, std::vector<LeafTriangle>& triangles) {
+void append_leaf_triangles(const LabelOctree& octree, const Leaf& leaf,
+                           std::vector<LeafTriangle>& triangles) {
   FaceFiller filler(octree, triangles);
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool is_high : {false, true}) fill_face(octree, leaf, axis, is_high, filler);

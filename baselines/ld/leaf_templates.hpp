@@ -1,5 +1,5 @@
-// How a leaf of the octree is filled: its centre is joined to triangles on its six faces, which both sides of a
-// face choose alike, so that no tet crosses the boundary of a leaf.
+// How a leaf of the octree is filled: its centre is joined to triangles on its six faces, which both sides of
+// a face choose alike, so that no tet crosses the boundary of a leaf.
 //
 //   a face whose neighbour is finer    two triangles on each of its four quarters;
 //   a face with an edge that is split  a fan from the centre of the face;
@@ -28,7 +28,8 @@ void append_leaf_triangles(const LabelOctree& octree, const Leaf& leaf, std::vec
 double least_template_dihedral_deg(const Vec3& cell_mm);
 
 /// The pieces that voxels are cut into so that no tet has a smaller dihedral angle than the bound: none for
-/// cubes; more along the longest edges of a piece until the bound is met. Throws InputError when it cannot be.
+/// cubes; more along the longest edges of a piece until the bound is met. Throws InputError when it cannot
+/// be.
 Index3 pieces_for(const Vec3& spacing_mm, double min_dihedral_deg);
 
 }  // namespace cbc3d::baselines::ld

@@ -18,7 +18,7 @@ LatticeDecimationOptions options_of(const ParameterValues& values) {
   // Beyond 44 degrees not even cubes can be filled, below 60 of the largest nothing.
   decimation.min_dihedral_deg = values.number("min-dihedral", 0, 44);
   decimation.max_dihedral_deg = values.number("max-dihedral", 121, 180);
-  decimation.first_min_dihedrals_deg = {values.number("first-min-dihedral", 0, 44)};
+  decimation.first_min_dihedral_deg = values.number("first-min-dihedral", 0, 44);
   options.clean = values.flag("clean");
   options.block = values.count("block", 2, 1024);
   if ((options.block & (options.block - 1)) != 0) {

@@ -67,7 +67,8 @@ bool keeps_topology(Stratum stratum_of_v, const Fan& of_v, VertexId w, const Fan
 
 Star::StarTet Star::star_tet(const MergeMesh& mesh, TetId t, std::uint32_t node) const {
   // Even permutations that put the node first.
-  static constexpr std::array<std::array<std::uint8_t, 3>, 4> kOthers{{{1, 2, 3}, {0, 3, 2}, {3, 0, 1}, {2, 1, 0}}};
+  static constexpr std::array<std::array<std::uint8_t, 3>, 4> kOthers{
+      {{1, 2, 3}, {0, 3, 2}, {3, 0, 1}, {2, 1, 0}}};
   StarTet tet{};
   tet.material = mesh.material(t);
   const LatticePoint& origin = mesh.point(v_);
@@ -76,7 +77,8 @@ Star::StarTet Star::star_tet(const MergeMesh& mesh, TetId t, std::uint32_t node)
     tet.link[i] = mesh.nodes(t)[kOthers[node][i]];
     const LatticePoint& at = mesh.point(tet.link[i]);
     for (std::size_t a = 0; a < 3; ++a) p[i][a] = at[a] - origin[a];
-    tet.link_mm[i] = {static_cast<double>(p[i][0]) * half_cell_mm_.x, static_cast<double>(p[i][1]) * half_cell_mm_.y,
+    tet.link_mm[i] = {static_cast<double>(p[i][0]) * half_cell_mm_.x,
+                      static_cast<double>(p[i][1]) * half_cell_mm_.y,
                       static_cast<double>(p[i][2]) * half_cell_mm_.z};
   }
   for (std::size_t a = 0; a < 3; ++a) {

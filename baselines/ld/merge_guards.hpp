@@ -1,5 +1,5 @@
-// The guards of a merge: what is around the vertex that would go, and whether the mesh stays valid, well shaped
-// and of the same topology without it.
+// The guards of a merge: what is around the vertex that would go, and whether the mesh stays valid, well
+// shaped and of the same topology without it.
 //
 // Notation: v -> w  the merge that puts w in the place of its neighbour v;
 //           fan     the facets between different materials (or on the outside of this part of the mesh) at a
@@ -45,10 +45,11 @@ class Fan {
   std::vector<VertexId> vertices_;
 };
 
-/// True when v -> w keeps the topology of all materials: the edge lies in the stratum of v, and no facet or edge
-/// of the interfaces comes to lie on another, which is the link condition of their complex (Dey, Edelsbrunner,
-/// Guha, Nekhayev: Topology preserving edge contraction, Publications de l'Institut Mathematique 66, 1999). In
-/// the space around them the orientation of the tets says all, for the star of v is filled again.
+/// True when v -> w keeps the topology of all materials: the edge lies in the stratum of v, and no facet or
+/// edge of the interfaces comes to lie on another, which is the link condition of their complex (Dey,
+/// Edelsbrunner, Guha, Nekhayev: Topology preserving edge contraction, Publications de l'Institut
+/// Mathematique 66, 1999). In the space around them the orientation of the tets says all, for the star of v
+/// is filled again.
 bool keeps_topology(Stratum stratum_of_v, const Fan& of_v, VertexId w, const Fan& of_w);
 
 /// The tets around a vertex, prepared for the question whether another can take its place.

@@ -34,7 +34,8 @@ class Joiner {
       part = {};
     }
     for (const LoosePiece& piece : loose_pieces) {
-      mesh_.pieces.push_back({piece.corners, {id_of(piece.facet[0]), id_of(piece.facet[1]), id_of(piece.facet[2])}});
+      mesh_.pieces.push_back(
+          {piece.corners, {id_of(piece.facet[0]), id_of(piece.facet[1]), id_of(piece.facet[2])}});
     }
     return std::move(mesh_);
   }
@@ -47,7 +48,8 @@ class Joiner {
         if (part.states[v].is_frozen) shared_.push_back({part.points[v], static_cast<VertexId>(vertices)});
       }
     }
-    if (vertices >= kNoVertex) throw JobError("the mesh has more vertices than can be numbered; give larger bounds");
+    if (vertices >= kNoVertex)
+      throw JobError("the mesh has more vertices than can be numbered; give larger bounds");
     std::sort(shared_.begin(), shared_.end());
     ids_.resize(vertices);
   }
@@ -138,16 +140,19 @@ void MeshParts::sort_tets(int side, int shift) {
     return (sum + std::int64_t{8} * shift) / (std::int64_t{8} * side);
   };
   for (const LatticePoint& point : mesh_.points) {
-    for (std::size_t a = 0; a < 3; ++a) boxes[a] = std::max(boxes[a], (point[a] / 2 + shift) / side + std::int64_t{1});
+    for (std::size_t a = 0; a < 3; ++a)
+      boxes[a] = std::max(boxes[a], (point[a] / 2 + shift) / side + std::int64_t{1});
   }
   std::vector<std::uint32_t> box(mesh_.tets.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t t = 0; t < box.size(); ++t) {
     const auto& nodes = mesh_.tets[t];
-    box[t] = static_cast<std::uint32_t>((box_of(nodes, 2) * boxes[1] + box_of(nodes, 1)) * boxes[0] + box_of(nodes, 0));
+    box[t] = static_cast<std::uint32_t>((box_of(nodes, 2) * boxes[1] + box_of(nodes, 1)) * boxes[0] +
+                                        box_of(nodes, 0));
   }
   const auto all = static_cast<std::size_t>(boxes[0] * boxes[1] * boxes[2]);
-  tets_ = sorted_by_key(box.size(), all, [&](std::size_t t) { return std::size_t{box[t]}; }, begins_);
+  tets_ = sorted_by_key(
+      box.size(), all, [&](std::size_t t) { return std::size_t{box[t]}; }, begins_);
   begins_.erase(std::unique(begins_.begin(), begins_.end()), begins_.end());
 }
 
@@ -211,8 +216,9 @@ std::vector<LoosePiece> MeshParts::loose_pieces() const {
   std::vector<LoosePiece> loose;
   for (const BoundaryPiece& piece : mesh_.pieces) {
     if (home_of(piece) != kSeveral) continue;
-    loose.push_back({piece.corners,
-                     {mesh_.points[piece.facet[0]], mesh_.points[piece.facet[1]], mesh_.points[piece.facet[2]]}});
+    loose.push_back(
+        {piece.corners,
+         {mesh_.points[piece.facet[0]], mesh_.points[piece.facet[1]], mesh_.points[piece.facet[2]]}});
   }
   return loose;
 }

@@ -7,21 +7,23 @@
 
 namespace cbc3d::baselines::ld {
 
-/// A piece of the boundary near a facet that no part can change, which is named by the places of its vertices.
+/// A piece of the boundary near a facet that no part can change, which is named by the places of its
+/// vertices.
 struct LoosePiece {
   std::array<LatticePoint, 3> corners{};
   std::array<LatticePoint, 3> facet{};
 };
 
-/// One mesh of all parts: frozen vertices of the same place become one, and none is frozen any more; one that is
-/// open in a part stays open. Vertices and tets are in the order of the parts, which are emptied.
+/// One mesh of all parts: frozen vertices of the same place become one, and none is frozen any more; one that
+/// is open in a part stays open. Vertices and tets are in the order of the parts, which are emptied.
 LatticeMesh joined(std::vector<LatticeMesh>& parts, const std::vector<LoosePiece>& loose_pieces = {});
 
-/// A mesh cut into boxes: tets by their centroids. Those vertices of a part are frozen that other parts have too.
+/// A mesh cut into boxes: tets by their centroids. Those vertices of a part are frozen that other parts have
+/// too.
 class MeshParts {
  public:
-  /// `side` and `shift` in cells: the first boxes begin `shift` before the lattice's origin. `mesh` must outlive
-  /// the parts.
+  /// `side` and `shift` in cells: the first boxes begin `shift` before the lattice's origin. `mesh` must
+  /// outlive the parts.
   MeshParts(const LatticeMesh& mesh, int side, int shift);
 
   /// The number of parts with tets.
@@ -42,9 +44,9 @@ class MeshParts {
   void sort_pieces();
 
   const LatticeMesh& mesh_;
-  std::vector<std::uint32_t> tets_;    // by part
-  std::vector<std::size_t> begins_;    // of each part in tets_, and the end
-  std::vector<std::uint32_t> homes_;   // of each vertex: its only part, or kSeveral
+  std::vector<std::uint32_t> tets_;   // by part
+  std::vector<std::size_t> begins_;   // of each part in tets_, and the end
+  std::vector<std::uint32_t> homes_;  // of each vertex: its only part, or kSeveral
   std::vector<std::uint8_t> has_work_;
   std::vector<std::uint32_t> pieces_;  // by part
   std::vector<std::size_t> piece_begins_;

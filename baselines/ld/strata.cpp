@@ -6,8 +6,9 @@
 namespace cbc3d::baselines::ld {
 namespace {
 
-/// The curves in which the interfaces meet a small sphere around a corner. Nodes are the six directions, number
-/// 2 axis + 1 for the positive one; an arc joins two of them across the quarter of a face between them.
+/// The curves in which the interfaces meet a small sphere around a corner. Nodes are the six directions,
+/// number 2 axis + 1 for the positive one; an arc joins two of them across the quarter of a face between
+/// them.
 class SphereCurves {
  public:
   explicit SphereCurves(const CellsAround& around) {
@@ -99,7 +100,8 @@ std::uint8_t normal_axes_of(const CellsAround& around) {
   std::uint8_t axes = 0;
   for (std::size_t cell = 0; cell < 8; ++cell) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (around[cell] != around[cell ^ (std::size_t{1} << axis)]) axes |= static_cast<std::uint8_t>(1U << axis);
+      if (around[cell] != around[cell ^ (std::size_t{1} << axis)])
+        axes |= static_cast<std::uint8_t>(1U << axis);
     }
   }
   return axes;
