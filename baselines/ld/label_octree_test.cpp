@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <cstdlib>
+
 #include "mesher/domain/testing_random_image.hpp"
 
 namespace cbc3d::baselines::ld {
@@ -71,7 +73,9 @@ void expect_balanced(const LevelMap& levels) {
           const Index3 d{step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1};
           const int other = levels.at({i + d[0], j + d[1], k + d[2]});
           const bool is_corner = d[0] != 0 && d[1] != 0 && d[2] != 0;
-          if (other >= 0 && !is_corner) ASSERT_LE(std::abs(own - other), 1);
+          if (other >= 0 && !is_corner) {
+            ASSERT_LE(std::abs(own - other), 1);
+          }
         }
       }
     }
