@@ -135,13 +135,15 @@ std::vector<std::array<Vec3, 3>> possible_triangles(int axis) {
     return p;
   };
   std::vector<std::array<Vec3, 3>> triangles;
-  const auto add_halves = [&](double u, double v, double side) {
+  const auto add_halves = [&](double u, double v, double side, std::size_t diagonal) {
     const std::array<Vec3, 4> c{at(u, v), at(u + side, v), at(u + side, v + side), at(u, v + side)};
-    for (std::size_t n = 0; n < 4; ++n) triangles.push_back({c[n], c[(n + 1) % 4], c[(n + 2) % 4]});
+    for (const std::size_t n : {diagonal, diagonal + 2})
+      triangles.push_back({c[n], c[(n + 1) % 4], c[(n + 2) % 4]});
   };
-  add_halves(-2, -2, 4);
+  for (const std::size_t diagonal : {0, 1}) add_halves(-2, -2, 4, diagonal);
   for (const double u : {-2, 0}) {
-    for (const double v : {-2, 0}) add_halves(u, v, 2);
+    // Counted in edges of a quarter the corners of the face and its centre have even sums.
+    for (const double v : {-2, 0}) add_halves(u, v, 2, u == v ? 0 : 1);
   }
   for (const double sign : {-2, 2}) {  // of the fans; the others mirror these
     triangles.push_back({at(0, 0), at(sign, -2), at(sign, 2)});
