@@ -1,6 +1,7 @@
 #include "baselines/ld/leaf_templates.hpp"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "baselines/ld/dihedral.hpp"
@@ -178,20 +179,24 @@ double least_template_dihedral_deg(const Vec3& cell_mm) {
 Index3 pieces_for(const Vec3& spacing_mm, double min_dihedral_deg) {
   constexpr int kMostPieces = 64;
   constexpr double kRounding = 1e-6;  // degrees
+  constexpr double kHeadroom = 4.0 / 3;
+  std::optional<Index3> first_within_bound;
   Index3 pieces{1, 1, 1};
   while (true) {
     Vec3 cell = spacing_mm;
     for (int axis = 0; axis < 3; ++axis) cell[axis] /= pieces[static_cast<std::size_t>(axis)];
-    if (least_template_dihedral_deg(cell) >= min_dihedral_deg + kRounding) return pieces;
+    const double least = least_template_dihedral_deg(cell);
+    if (least >= kHeadroom * min_dihedral_deg + kRounding) return pieces;
+    if (!first_within_bound && least >= min_dihedral_deg + kRounding) first_within_bound = pieces;
     const std::size_t longest = cell.x >= cell.y ? (cell.x >= cell.z ? 0 : 2) : (cell.y >= cell.z ? 1 : 2);
-    if (++pieces[longest] > kMostPieces) {
-      std::ostringstream text;
-      text << "voxels of " << spacing_mm.x << " x " << spacing_mm.y << " x " << spacing_mm.z
-           << " mm cannot be filled with dihedral angles of at least " << min_dihedral_deg
-           << " degrees; give a smaller bound or resample the image";
-      throw InputError(text.str());
-    }
+    if (++pieces[longest] > kMostPieces) break;
   }
+  if (first_within_bound) return *first_within_bound;
+  std::ostringstream text;
+  text << "voxels of " << spacing_mm.x << " x " << spacing_mm.y << " x " << spacing_mm.z
+       << " mm cannot be filled with dihedral angles of at least " << min_dihedral_deg
+       << " degrees; give a smaller bound or resample the image";
+  throw InputError(text.str());
 }
 
 }  // namespace cbc3d::baselines::ld

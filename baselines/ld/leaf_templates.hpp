@@ -27,9 +27,10 @@ void append_leaf_triangles(const LabelOctree& octree, const Leaf& leaf, std::vec
 /// The smallest dihedral angle of any tet that a leaf can be filled with: 45 degrees for cubes.
 double least_template_dihedral_deg(const Vec3& cell_mm);
 
-/// The pieces that voxels are cut into so that no tet has a smaller dihedral angle than the bound: none for
-/// cubes; more along the longest edges of a piece until the bound is met. Throws InputError when it cannot
-/// be.
+/// The pieces that voxels are cut into so that no tet has a smaller dihedral angle than the bound: more along
+/// the longest edges of a piece, none for cubes. A third more than the bound is sought where it can be had,
+/// for tets that begin at the bound leave no merges to make. Throws InputError when not even the bound can be
+/// met.
 Index3 pieces_for(const Vec3& spacing_mm, double min_dihedral_deg);
 
 }  // namespace cbc3d::baselines::ld
