@@ -7,6 +7,7 @@
   FOLDER(cbc3d)                      \
   FOLDER(cgal)                       \
   FOLDER(cleaver)                    \
+  FOLDER(ld)                         \
   FOLDER(tetgen)
 
 namespace cbc3d::baselines {
