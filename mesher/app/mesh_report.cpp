@@ -32,7 +32,11 @@ nlohmann::json fidelity_json(const MeshImageReport& report) {
   return list;
 }
 
-nlohmann::json topology_json(const TopologyReport& topology) {
+nlohmann::json topology_json(const TopologyReport& topology, const std::vector<TopologyPlace>& places) {
+  nlohmann::json differences = nlohmann::json::array();
+  for (const TopologyPlace& place : places) {
+    differences.push_back({{"label", place.label}, {"at_mm", {place.at_mm.x, place.at_mm.y, place.at_mm.z}}});
+  }
   nlohmann::json labels = nlohmann::json::array();
   for (const LabelTopology& t : topology.labels) {
     nlohmann::json extra = nlohmann::json::array();
@@ -49,6 +53,7 @@ nlohmann::json topology_json(const TopologyReport& topology) {
           {"non_manifold_vertices_left", topology.non_manifold_vertices_left},
           {"tets_relabelled", topology.tets_relabelled},
           {"components_removed", topology.components_removed},
+          {"places_not_kept", differences},
           {"labels", labels}};
 }
 
@@ -163,7 +168,8 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
            {{"rounds", report.refine.rounds},
             {"finest_spacing_mm", report.finest_spacing_mm},
             {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
-          {"topology", run.options.topology.enabled ? topology_json(report.topology) : nlohmann::json()},
+          {"topology", run.options.topology.enabled ? topology_json(report.topology, report.topology_places)
+                                                    : nlohmann::json()},
           {"materials", fidelity_json(report)},
           {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
           {"deformation", deformation_json(report.deform)},

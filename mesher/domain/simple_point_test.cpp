@@ -46,8 +46,8 @@ int euler(const VoxelNeighbourhood& around) {
         for (int block = 0; block < 8; ++block) {  // voxel, faces, edges and corners towards +
           bool all = true;
           for (int part = 0; part < 8; ++part)
-            all = all && ((part & ~block) != 0 ||
-                          has(x + (part & 1), y + (part >> 1 & 1), z + (part >> 2 & 1)));
+            all = all &&
+                  ((part & ~block) != 0 || has(x + (part & 1), y + (part >> 1 & 1), z + (part >> 2 & 1)));
           const int dimensions = (block & 1) + (block >> 1 & 1) + (block >> 2);
           chi += all ? (dimensions % 2 == 0 ? 1 : -1) : 0;
         }

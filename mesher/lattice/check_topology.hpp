@@ -28,8 +28,8 @@ struct TopologyOptions {
   bool one_face_rule = true;  ///< kept on the way (RefineOptions::one_face_rule)
   int image_passes = 0;       ///< the first passes, this many, in which the image at a non-manifold vertex
                               ///< decides: its whole star becomes what the voxel there is
-  bool drop_crumbs = false;    ///< components, background's too, of less than an eighth of a voxel or in
-                               ///< no voxel of their label are relabelled
+  bool drop_crumbs = false;   ///< components, background's too, of less than an eighth of a voxel or in
+                              ///< no voxel of their label are relabelled
   double small_component = 0.01;  ///< a component below this share of its label's volume is relabelled
 };
 

@@ -134,6 +134,24 @@ TEST(CheckTopology, TheImageDecidesFirstAtANonManifoldVertex) {
   }
 }
 
+/// A piece of background in a voxel of the label is a crumb; in a voxel of background it is a cavity.
+TEST(CheckTopology, CrumbsAreWhatHasNoVoxelOfItsLabel) {
+  for (const int there : {0, 1}) {
+    const LabelImage image = testing::make_image({3, 3, 3}, {1, 1, 1}, 1, [&](const Vec3&) { return there; });
+    std::vector<Vec3> points;
+    CandidateMesh mesh = octants({1, 1, 1, 1, 1, 1, 1, 0}, points);
+    for (Vec3& p : points) {
+      p = p + Vec3{1, 1, 1};
+    }
+    const TopologyReport report =
+        check_topology(mesh, points, ImageDomain(image),
+                       {.enabled = true, .one_face_rule = false, .drop_crumbs = true, .small_component = 0});
+    // The label has no voxel either where the image is empty, and goes.
+    EXPECT_EQ(mesh.materials, std::vector<MaterialId>(8, static_cast<MaterialId>(there)));
+    EXPECT_EQ(report.components_removed, 1U);
+  }
+}
+
 TEST(CheckTopology, SmallComponentsGoAndRegionsStay) {
   // Two balls of label 1 (two regions) far apart: both are components that the image has.
   LabelImage image = testing::make_image({60, 24, 24}, {1, 1, 1}, 1, [](const Vec3& p) {

@@ -12,9 +12,9 @@ class ExactVoxels {
  public:
   explicit ExactVoxels(const ImageFrame& frame) : frame_(frame), is_exact_(frame.voxel_count()) {}
 
-  /// Adds the voxels of `places`, and the misplaced ones among the 26 around each: an error in topology is the
-  /// whole of a tunnel that was filled, not the voxel that could not be filled last. Called again while the
-  /// error persists, it follows the tunnel. Both lists ascend.
+  /// Adds the voxels of `places`, and the misplaced ones among the 26 around each: an error in topology is
+  /// the whole of a tunnel that was filled, not the voxel that could not be filled last. Called again while
+  /// the error persists, it follows the tunnel. Both lists ascend.
   void add(const std::vector<std::size_t>& places, const std::vector<std::size_t>& misplaced);
 
   [[nodiscard]] bool holds(const Vec3& local_mm) const;

@@ -1,6 +1,8 @@
-// The paper's fidelity (section "Adaptive Lattice Refinement") of each material, and words for where it is not met.
+// The paper's fidelity (section "Adaptive Lattice Refinement") of each material, and words for where it is
+// not met.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,9 +30,18 @@ struct MaterialFidelity {
   }
 };
 
-/// One line for each label that has a material (a region of it) whose fidelity is not met: the worst one's, and
-/// that the lattice may not be finer than `finest_spacing_mm`.
+/// What is wanted of each material, background first: `fidelity`, or the label's own in `of_label`.
+std::vector<MaterialFidelity> wanted_fidelity(const std::vector<Label>& labels,
+                                              const std::vector<std::size_t>& voxels, double fidelity,
+                                              const std::map<Label, double>& of_label);
+
+/// One line for each label that has a material (a region of it) whose fidelity is not met: the worst one's,
+/// and that the lattice may not be finer than `finest_spacing_mm`.
 std::vector<std::string> warnings_of_unmet_fidelity(const std::vector<MaterialFidelity>& fidelity,
                                                     double finest_spacing_mm);
+
+/// That so many boundary voxels are farther than a distance from their interface, and how fine the lattice
+/// is.
+std::string warning_of_uncovered(std::size_t voxels, double distance_mm, double finest_spacing_mm);
 
 }  // namespace cbc3d

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -14,10 +13,10 @@
 #include "mesher/lattice/exact_voxels.hpp"
 #include "mesher/lattice/fidelity_account.hpp"
 #include "mesher/lattice/lattice_places.hpp"
+#include "mesher/lattice/part_raster.hpp"
 #include "mesher/lattice/red_green.hpp"
 #include "mesher/lattice/select_candidate.hpp"
 #include "mesher/lattice/voxel_raster.hpp"
-#include "mesher/lattice/voxel_topology.hpp"
 
 namespace cbc3d {
 namespace {
@@ -30,18 +29,12 @@ class Refiner {
         image_(domain.image()),
         options_(options),
         raster_(image_.frame, lattice.frame),
-        parts_(voxel_parts(image_.frame)),
-        part_frame_(part_frame(image_.frame)),
         account_(image_, raster_, domain.voxels().count),
         red_green_(lattice),
         follower_(lattice),
         rank_(rank_by_size(domain.voxels(), BackgroundRank::highest)) {
-    for (std::size_t m = 0; m < image_.material_count(); ++m) {
-      const auto own = options.material_fidelity.find(image_.labels[m]);
-      result_.fidelity.push_back({static_cast<MaterialId>(m), image_.labels[m],
-                                  own != options.material_fidelity.end() ? own->second : options.fidelity, 0,
-                                  account_.image_voxels(m), 0});
-    }
+    result_.fidelity =
+        wanted_fidelity(image_.labels, domain.voxels().count, options.fidelity, options.material_fidelity);
     if (options.max_distance_mm > 0 && options.each_interface) {
       interfaces_.emplace(domain);
     } else if (options.max_distance_mm > 0) {
@@ -51,7 +44,7 @@ class Refiner {
       places_.emplace(image_.frame, lattice.frame);
     }
     if (options.keep_topology) {
-      part_raster_.emplace(image_.frame, lattice.frame, parts_);
+      parts_.emplace(image_, lattice.frame);
     }
   }
 
@@ -132,9 +125,8 @@ class Refiner {
     return judged_[t] != result_.mesh.materials[t];
   }
 
-  /// Judges the mesh by its materials and marks what is to be split. What depends on nothing but tets that
-  /// are as they were at the last judgement is not computed again: of those, none is marked that can be
-  /// split, for they would have been split.
+  /// Judges the mesh by its materials and marks what is to be split. What depends on unchanged tets alone is
+  /// not computed again: of those, what is marked and can be split has been.
   void judge() {
     marked_.assign(lattice_.reds.size(), 0);
     touch_changed();
@@ -349,44 +341,16 @@ class Refiner {
     judge();
   }
 
-  /// The parts of voxels that are in tets of other materials than their own, by offset.
-  [[nodiscard]] std::vector<MisplacedPart> misplaced_parts() const {
-    std::vector<MisplacedPart> misplaced;
-#pragma omp parallel
-    {
-      std::vector<MisplacedPart> own;
-#pragma omp for schedule(dynamic, 1024) nowait
-      for (std::size_t t = 0; t < foreign_.size(); ++t) {
-        add_misplaced(t, own);
-      }
-#pragma omp critical(cbc3d_misplaced)
-      misplaced.insert(misplaced.end(), own.begin(), own.end());
-    }
-    std::sort(misplaced.begin(), misplaced.end(),
-              [](const MisplacedPart& a, const MisplacedPart& b) { return a.offset < b.offset; });
-    return misplaced;
-  }
-
-  void add_misplaced(std::size_t t, std::vector<MisplacedPart>& misplaced) const {
-    const MaterialId own = result_.mesh.materials[t];
-    part_raster_->for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-      for (int i = i_begin; i < i_end; ++i) {
-        if (image_.at(i / parts_[0], j / parts_[1], k / parts_[2]) != own) {
-          misplaced.push_back({part_frame_.offset(i, j, k), own});
-        }
-      }
-    });
-  }
-
   /// Where the repaired mesh has another topology than the image, voxels around are taken as they are, on a
   /// lattice finer than they are. Returns how many tets of it are to be split or to be labelled anew.
   std::size_t mark_topology_differences() {
     if (!options_.keep_topology) {
       return 0;
     }
-    const std::vector<MisplacedPart> misplaced = misplaced_parts();
+    const std::vector<MisplacedPart> misplaced = parts_->misplaced(lattice_, result_.mesh);
     result_.topology_differences = find_topology_differences(image_, misplaced);
-    if (result_.topology_differences.empty()) {
+    is_topology_kept_ = result_.topology_differences.empty();
+    if (is_topology_kept_) {
       return 0;
     }
     if (!exact_) {
@@ -410,26 +374,15 @@ class Refiner {
     }
     const MaterialId now = image_.at_local(centroid);
     const MaterialId before = std::exchange(centroid_material_[t], now);
-    const bool is_split = level_of(t) < lattice_.frame.max_level && holds_part_of_other(t, now);
+    const bool is_split =
+        level_of(t) < lattice_.frame.max_level && parts_->holds_other(lattice_points(t), now);
     if (is_split) {
       mark_tet(t);
     }
     return is_split || before != now;
   }
 
-  [[nodiscard]] bool holds_part_of_other(std::size_t t, MaterialId own) const {
-    bool found = false;
-    part_raster_->for_each_row(lattice_points(t), [&](int j, int k, int i_begin, int i_end) {
-      for (int i = i_begin; i < i_end && !found; ++i) {
-        found = image_.at(i / parts_[0], j / parts_[1], k / parts_[2]) != own;
-      }
-      return found;
-    });
-    return found;
-  }
-
-  /// Noise asks for the finest lattice everywhere. A real image needs 6 to 15 tets for each boundary sample,
-  /// and more where it has many specks of a voxel.
+  /// Noise asks for the finest lattice everywhere. A real image needs 6 to 15 tets a boundary sample.
   bool exceeds_budget() {
     constexpr std::size_t kTetsPerSample = 40;
     constexpr std::size_t kTets = 250000;
@@ -558,10 +511,8 @@ class Refiner {
     return can_split;
   }
 
-  /// The paper's criterion. The signed distance of material m is positive in its voxels, zero on its boundary
-  /// voxels and negative in all others, so "it changes sign between the centroid and a vertex" is "one of the
-  /// two lies in a voxel of m and the other does not": a look-up in the image decides it, no distance map is
-  /// needed.
+  /// The paper's criterion: "the signed distance of m changes sign between the centroid and a vertex" is "one
+  /// of the two lies in a voxel of m and the other does not". A look-up decides it, without a distance map.
   void mark_by_distance_sign(const std::vector<std::uint8_t>& unmet) {
     std::vector<MaterialId> at_vertex(points_.size());
 #pragma omp parallel for schedule(static, 4096)
@@ -581,9 +532,8 @@ class Refiner {
     }
   }
 
-  /// A structure that passes between the centroids and vertices of coarse tets changes no sign, yet it is
-  /// missing. So the tets that hold voxels of an unmet material but are not of it are split as well (the
-  /// paper's ancestor did so).
+  /// A structure that passes between the centroids and vertices of coarse tets changes no sign. So tets that
+  /// hold voxels of an unmet material but are not of it are split too (the paper's ancestor did so).
   void mark_misjudged(const std::vector<std::uint8_t>& unmet) {
     const CandidateMesh& mesh = result_.mesh;
 #pragma omp parallel for schedule(dynamic, 512)
@@ -596,18 +546,18 @@ class Refiner {
   }
 
   void finish() {
+    if (options_.keep_topology && !is_topology_kept_) {  // the rounds ended before it was
+      mark_what_repair_loses();
+      result_.topology_differences =
+          find_topology_differences(image_, parts_->misplaced(lattice_, result_.mesh));
+    }
     result_.uncovered_voxels = uncovered_count();
     result_.fidelity.erase(result_.fidelity.begin());  // background
     const auto unmet = warnings_of_unmet_fidelity(result_.fidelity, options_.finest_spacing_mm);
     result_.warnings.insert(result_.warnings.end(), unmet.begin(), unmet.end());
-    char text[256];
     if (result_.uncovered_voxels > 0) {
-      std::snprintf(
-          text, sizeof(text),
-          "%zu boundary voxels lie farther than %.3g mm from the interface at the finest spacing %.3g mm",
-          result_.uncovered_voxels, options_.max_distance_mm,
-          lattice_.frame.spacing_mm(lattice_.frame.max_level));
-      result_.warnings.emplace_back(text);
+      result_.warnings.push_back(warning_of_uncovered(result_.uncovered_voxels, options_.max_distance_mm,
+                                                      lattice_.frame.spacing_mm(lattice_.frame.max_level)));
     }
   }
 
@@ -616,9 +566,7 @@ class Refiner {
   const LabelImage& image_;  // of the domain
   const RefineOptions& options_;
   VoxelRaster raster_;
-  Index3 parts_;  // of a voxel, by axis
-  ImageFrame part_frame_;
-  std::optional<VoxelRaster> part_raster_;  // with keep_topology
+  std::optional<PartRaster> parts_;  // with keep_topology
   FidelityAccount account_;
   std::optional<BoundaryCoverage> coverage_;
   std::optional<InterfaceCoverage> interfaces_;
@@ -638,6 +586,7 @@ class Refiner {
   std::vector<std::uint8_t> marked_;
   int topology_rounds_ = 0;
   int repairs_ = 0;
+  bool is_topology_kept_ = false;
   RefineResult result_;
 };
 

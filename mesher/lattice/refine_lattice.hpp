@@ -27,8 +27,8 @@ struct RefineOptions {
       0;  ///< with max_vertex_distance_mm: materials that meet at a vertex must meet within this in the image
   bool keep_thin_parts = false;  ///< refine also where a voxel of a thin part (ImageDomain::is_thin_voxel) is
                                  ///< in a tet of another material
-  bool smooth_labels = false;   ///< a tet takes the material whose smoothed share is largest at its centroid
-  bool each_interface = false;  ///< the distance is judged for every interface, not for every material
+  bool smooth_labels = false;    ///< a tet takes the material whose smoothed share is largest at its centroid
+  bool each_interface = false;   ///< the distance is judged for every interface, not for every material
   double coarsest_spacing_mm = 0;  ///< > 0: no tet of a label is of a coarser level than this lattice spacing
   double finest_spacing_mm = 0;    ///< the fidelity criterion splits no tet below this lattice spacing, mm;
                                  ///< 0: the smallest voxel spacing (the distance criterion: a quarter of it)

@@ -1,12 +1,17 @@
 // The rounds of the refinement and what the candidate mesh holds after them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
 #include <vector>
 
 #include "mesher/domain/boundary_samples.hpp"
 #include "mesher/domain/image_domain.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/refine_lattice.hpp"
+#include "mesher/preprocess/clean_image.hpp"
 #include "mesher/testing/test_images.hpp"
 
 namespace cbc3d {
@@ -64,6 +69,75 @@ TEST(RefineLattice, ThinPartsAreKeptVoxelByVoxel) {
     const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
     EXPECT_EQ(result.fidelity[0].common_voxels == result.fidelity[0].image_voxels, keep);
   }
+}
+
+/// Vertices less edges plus faces less tets of a label, its boundary included.
+std::ptrdiff_t euler_of_tets(const CandidateMesh& mesh, MaterialId label) {
+  std::set<std::vector<VertexId>> simplices;
+  std::ptrdiff_t tets = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (mesh.materials[t] != label) continue;
+    ++tets;
+    std::array<VertexId, 4> n = mesh.tets.nodes[t];
+    std::sort(n.begin(), n.end());
+    for (unsigned subset = 1; subset < 15; ++subset) {
+      std::vector<VertexId> simplex;
+      for (unsigned c = 0; c < 4; ++c)
+        if ((subset >> c & 1U) != 0) simplex.push_back(n[c]);
+      simplices.insert(simplex);
+    }
+  }
+  std::ptrdiff_t chi = -tets;
+  for (const auto& simplex : simplices) chi += simplex.size() % 2 == 1 ? 1 : -1;
+  return chi;
+}
+
+/// The same of the label's voxels as closed cubes.
+std::ptrdiff_t euler_of_voxels(const LabelImage& image, MaterialId label) {
+  std::set<Index3> cells;  // of the doubled grid: odd coordinates are inside along their axis
+  for (int k = 0; k < image.frame.size[2]; ++k)
+    for (int j = 0; j < image.frame.size[1]; ++j)
+      for (int i = 0; i < image.frame.size[0]; ++i)
+        for (int part = 0; part < 27 && image.at(i, j, k) == label; ++part)
+          cells.insert({2 * i + part % 3, 2 * j + part / 3 % 3, 2 * k + part / 9});
+  std::ptrdiff_t chi = 0;
+  for (const auto& [x, y, z] : cells) chi += (x + y + z) % 2 == 0 ? 1 : -1;
+  return chi;
+}
+
+/// Two labels that touch, with walls and tunnels of two voxels: a lattice that only keeps to distances loses
+/// and adds some.
+TEST(RefineLattice, EveryLabelKeepsTheTopologyOfTheImage) {
+  LabelImage image = testing::make_image({26, 24, 18}, {1, 1, 1.4}, 2, [](const Vec3& p) {
+    const double g = std::sin(1.3 * p.x) + std::sin(1.1 * p.y + 0.4 * p.x) + std::sin(0.9 * p.z + 0.2 * p.y);
+    const bool inside = p.x > 1 && p.x < 24 && p.y > 1 && p.y < 22 && p.z > 1.5 && p.z < 22;
+    return !inside ? 0 : g > 0.3 ? 1 : g < -1.1 ? 2 : 0;
+  });
+  clean_image(image, {.region_tolerance = 0, .well_composed = true}, true);
+  const ImageDomain domain(image);
+  std::ptrdiff_t off[2] = {0, 0};
+  for (const bool keep : {false, true}) {
+    RefineOptions options;
+    options.fidelity = 0.01;
+    options.max_distance_mm = image.frame.voxel_diagonal_mm();
+    options.smooth_labels = options.each_interface = true;
+    options.finest_spacing_mm = 1;
+    options.one_face_rule = false;
+    options.topology_checks = true;
+    options.topology_rounds = 0;
+    options.repair_rounds = 16;
+    options.repair_image_passes = 4;
+    options.keep_topology = keep;
+    Lattice lattice = build_bcc_lattice(image, {8, 0.25});
+    const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
+    EXPECT_TRUE(result.topology_differences.empty());
+    for (std::size_t m = 1; m < image.material_count(); ++m) {
+      const auto material = static_cast<MaterialId>(m);
+      off[keep ? 1 : 0] += std::abs(euler_of_tets(result.mesh, material) - euler_of_voxels(image, material));
+    }
+  }
+  EXPECT_GT(off[0], 0);
+  EXPECT_EQ(off[1], 0);
 }
 
 TEST(RefineLattice, NoTetOfALabelIsCoarserThanAsked) {

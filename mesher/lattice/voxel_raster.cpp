@@ -26,7 +26,8 @@ VoxelRaster::VoxelRaster(const ImageFrame& image, const LatticeFrame& lattice, c
   }
 }
 
-VoxelRaster::Axis VoxelRaster::make_axis(int size, int parts, double spacing_mm, double origin_mm, double scale) {
+VoxelRaster::Axis VoxelRaster::make_axis(int size, int parts, double spacing_mm, double origin_mm,
+                                         double scale) {
   Axis axis;
   axis.inverse_step = parts / (spacing_mm * scale);
   axis.centre.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(parts));

@@ -18,7 +18,17 @@ class Transition {
         parts_(voxel_parts(image.frame)),
         frame_(part_frame(image.frame)),
         misplaced_(misplaced),
-        is_done_(misplaced.size(), 0) {}
+        first_of_row_(static_cast<std::size_t>(frame_.size[1]) * static_cast<std::size_t>(frame_.size[2]) +
+                      1),
+        is_done_(misplaced.size(), 0) {
+    std::size_t next = 0;
+    for (std::size_t row = 0; row < first_of_row_.size(); ++row) {
+      while (next < misplaced.size() && misplaced[next].offset < row * row_length()) {
+        ++next;
+      }
+      first_of_row_[row] = next;
+    }
+  }
 
   /// Those of the misplaced that cannot change.
   std::vector<MisplacedPart> run() {
@@ -79,12 +89,17 @@ class Transition {
       return 0;
     }
     const std::size_t offset = frame_.offset(at[0], at[1], at[2]);
-    const auto found = std::lower_bound(misplaced_.begin(), misplaced_.end(), offset,
+    const std::size_t row = offset / row_length();
+    const auto begin = misplaced_.begin() + static_cast<std::ptrdiff_t>(first_of_row_[row]);
+    const auto end = misplaced_.begin() + static_cast<std::ptrdiff_t>(first_of_row_[row + 1]);
+    const auto found = std::lower_bound(begin, end, offset,
                                         [](const MisplacedPart& p, std::size_t o) { return p.offset < o; });
-    const bool is_changed = found != misplaced_.end() && found->offset == offset &&
+    const bool is_changed = found != end && found->offset == offset &&
                             is_done_[static_cast<std::size_t>(found - misplaced_.begin())] != 0;
     return image_.labels[is_changed ? found->in_mesh : in_image(at)];
   }
+
+  [[nodiscard]] std::size_t row_length() const { return static_cast<std::size_t>(frame_.size[0]); }
 
   [[nodiscard]] MaterialId in_image(const Index3& at) const {
     return image_.at(at[0] / parts_[0], at[1] / parts_[1], at[2] / parts_[2]);
@@ -94,6 +109,7 @@ class Transition {
   const Index3 parts_;
   const ImageFrame frame_;  // of the parts
   const std::vector<MisplacedPart>& misplaced_;
+  std::vector<std::size_t> first_of_row_;  // of the part frame, in misplaced_
   std::vector<std::uint8_t> is_done_;
 };
 
@@ -105,7 +121,8 @@ Index3 voxel_parts(const ImageFrame& image) {
   Index3 parts{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double length = image.spacing_mm[axis] / image.spacing_mm.min_coeff();
-    parts[axis] = std::clamp(static_cast<int>(std::lround(kFewest * std::min<double>(length, kMost))), kFewest, kMost);
+    parts[axis] =
+        std::clamp(static_cast<int>(std::lround(kFewest * std::min<double>(length, kMost))), kFewest, kMost);
   }
   return parts;
 }

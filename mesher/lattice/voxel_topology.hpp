@@ -3,8 +3,8 @@
 // A mesh never has all of a voxel in tets of the voxel's label: its surfaces are smooth, and its tets are
 // larger. That changes no topology where the parts in question can take the mesh's label one after the
 // other, each being simple for the label that it leaves and for the one that it enters. What is left then
-// lies where pieces, tunnels or cavities of some label came or went. Halves of voxels are the coarsest grid on
-// which a slanted wire one voxel thick stays in one piece.
+// lies where pieces, tunnels or cavities of some label came or went. Halves of voxels are the coarsest grid
+// on which a slanted wire one voxel thick stays in one piece.
 #pragma once
 
 #include <vector>

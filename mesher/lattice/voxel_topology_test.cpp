@@ -19,8 +19,7 @@ std::vector<MisplacedPart> misplaced_parts(const LabelImage& image,
   std::vector<MisplacedPart> misplaced;
   for (std::size_t offset = 0; offset < frame.voxel_count(); ++offset) {
     const Index3 at = frame.index_of(offset);
-    const Vec3 centre = image.frame.to_local(
-        frame.to_physical(frame.local_centre(at[0], at[1], at[2])));
+    const Vec3 centre = image.frame.to_local(frame.to_physical(frame.local_centre(at[0], at[1], at[2])));
     const MaterialId material = in_mesh(centre);
     if (material != image.at_local(centre)) {
       misplaced.push_back({offset, material});
@@ -95,8 +94,8 @@ TEST(VoxelTopology, PlantedTunnelsCavitiesAndPartsAreFoundWhereTheyAre) {
 
 /// Regions of one label are one label: what changes between them alone has no topology.
 TEST(VoxelTopology, MaterialsOfOneLabelAreNotToldApart) {
-  LabelImage image = testing::make_image({8, 4, 4}, {1, 1, 1}, 2,
-                                         [](const Vec3& p) { return p.x < 3.5 ? 1 : 2; });
+  LabelImage image =
+      testing::make_image({8, 4, 4}, {1, 1, 1}, 2, [](const Vec3& p) { return p.x < 3.5 ? 1 : 2; });
   image.labels = {0, 5, 5};
   const auto misplaced = misplaced_parts(
       image, [](const Vec3& x) { return static_cast<MaterialId>(std::fmod(x.x, 2) < 1 ? 1 : 2); });

@@ -166,6 +166,33 @@ void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) 
   }
 }
 
+std::vector<TopologyPlace> places_of(const LabelImage& image, const std::vector<std::size_t>& offsets) {
+  std::vector<TopologyPlace> places;
+  for (const std::size_t offset : offsets) {
+    const Index3 at = image.frame.index_of(offset);
+    places.push_back({image.labels[image.at(at[0], at[1], at[2])],
+                      image.frame.to_physical(image.frame.local_centre(at[0], at[1], at[2]))});
+  }
+  return places;
+}
+
+/// One line for each label.
+void warn_of_topology_places(MeshImageReport& report) {
+  std::map<Label, std::vector<Vec3>> of_label;
+  for (const TopologyPlace& place : report.topology_places) {
+    of_label[place.label].push_back(place.at_mm);
+  }
+  for (const auto& [label, places] : of_label) {
+    char text[256];
+    std::snprintf(text, sizeof(text),
+                  "the topology at %zu voxels of %s may not be the cleaned image's, the first at "
+                  "(%.4g, %.4g, %.4g) mm (all in the report); a smaller finest_spacing_mm keeps more",
+                  places.size(), label == 0 ? "background" : ("label " + std::to_string(label)).c_str(),
+                  places.front().x, places.front().y, places.front().z);
+    report.warnings.emplace_back(text);
+  }
+}
+
 void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
   if (report.improve.min_dihedral_after_deg < options.improve.min_dihedral_deg) {
     char text[128];
@@ -254,6 +281,8 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
       return check_topology(candidate, local_points(lattice), domain, options.topology);
     });
     warn_of_topology(options, report);
+    report.topology_places = places_of(image, report.refine.topology_differences);
+    warn_of_topology_places(report);
   }
 
   MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {

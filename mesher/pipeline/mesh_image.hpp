@@ -38,6 +38,12 @@ struct MeshImageOptions {
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
 
+/// A voxel around which a label's topology may not be the cleaned image's.
+struct TopologyPlace {
+  Label label = 0;  ///< of the voxel
+  Vec3 at_mm;       ///< its centre, physical
+};
+
 struct MeshImageReport {
   double lattice_spacing_mm = 0;
   double finest_spacing_mm = 0;
@@ -48,6 +54,7 @@ struct MeshImageReport {
   CleanReport clean;
   RefineResult refine;  ///< without its mesh
   TopologyReport topology;
+  std::vector<TopologyPlace> topology_places;  ///< where the lattice could not keep it, by voxel
   MixReport mix;
   DeformReport deform;
   ImproveReport improve;
