@@ -115,10 +115,10 @@ class MesherProgram : public ::testing::TestWithParam<std::string> {
     });
     return parameters;
   }
-  // Delaunay refinement rounds edges off by its facet size and lattice cleaving by its blur, so that the
-  // phantoms' sharp ones need less of them.
+  // Delaunay refinement rounds edges off by its facet size, lattice cleaving by its blur and its cells, so
+  // that the phantoms' sharp ones need less of them.
   [[nodiscard]] Parameters fine() const {
-    return known_of({{"facet-size", "1"}, {"facet-distance", "0.2"}, {"cell-size", "2"}, {"blur", "0.4"}});
+    return known_of({{"facet-size", "1"}, {"facet-distance", "0.2"}, {"cell-size", "2"}, {"blur", "0.6"}});
   }
   [[nodiscard]] int run(const MeshJob& wanted) const {
     return exit_code_of(

@@ -69,7 +69,7 @@ TEST_F(BrokenMesh, CoordinateIsNoNumber) {
   Mesh mesh = test::kuhn_mesh(test::two_boxes());
   mesh.points[3].y = std::numeric_limits<double>::quiet_NaN();
   write_mesh(mesh, folder_.path() / "nan.vtu");
-  EXPECT_TRUE(contains(error_of("nan.vtu"), "vertex 3 has a coordinate that is not finite"))
+  EXPECT_TRUE(contains(error_of("nan.vtu"), "point 3 has a coordinate that is no finite number"))
       << error_of("nan.vtu");
   write("nan.vtk", vtk_text("0 nan 1", 10, kLabel));  // VTK reads no such text
   EXPECT_TRUE(contains(error_of("nan.vtk"), "nan.vtk")) << error_of("nan.vtk");
@@ -102,7 +102,7 @@ TEST_F(BrokenMesh, VertexThatIsNotThere) {
         "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 "
         "0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 7\nCELL_TYPES 1\n10\n" +
             std::string(kLabel));
-  EXPECT_TRUE(contains(error_of("vertex.vtk"), "names vertex 7 of 4"));
+  EXPECT_TRUE(contains(error_of("vertex.vtk"), "has node 7, but there are 4 points"));
 }
 
 LabelImage block_image() {

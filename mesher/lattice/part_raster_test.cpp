@@ -16,28 +16,27 @@ TEST(PartRaster, FindsThePartsOnTheWrongSide) {
   const Lattice lattice = build_bcc_lattice(image, {1, 0.5});
   const LatticeTets tets = extract_tets(lattice);
   const PartRaster parts(image, lattice.frame);
-  // The mesh calls everything 1: what is misplaced is the background, all of its parts.
-  CandidateMesh mesh{.tets = tets, .materials = std::vector<MaterialId>(tets.size(), 1), .neighbours = {}};
+  // The mesh calls everything background: what is misplaced are the label's parts, all of them.
+  CandidateMesh mesh{.tets = tets, .materials = std::vector<MaterialId>(tets.size(), 0), .neighbours = {}};
   const auto misplaced = parts.misplaced(lattice, mesh);
   ASSERT_EQ(misplaced.size(), 8U * 4 * 8 * 8);
   const ImageFrame frame = part_frame(image.frame);
   for (std::size_t n = 0; n < misplaced.size(); ++n) {
-    EXPECT_EQ(misplaced[n].in_mesh, 1);
-    ASSERT_GE(frame.index_of(misplaced[n].offset)[0], 8);
+    EXPECT_EQ(misplaced[n].in_mesh, 0);
+    ASSERT_LT(frame.index_of(misplaced[n].offset)[0], 8);
     ASSERT_TRUE(n == 0 || misplaced[n - 1].offset < misplaced[n].offset);
   }
-  // Tets with parts of the other side, and none without.
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    const auto& n = tets.nodes[t];
+  // No tet beyond the label's last part holds one of the label.
+  for (const auto& n : tets.nodes) {
     const std::array<LatticePoint, 4> corners = {lattice.points[n[0]], lattice.points[n[1]],
                                                  lattice.points[n[2]], lattice.points[n[3]]};
-    double most = -1e9;
-    for (const LatticePoint& p : corners) most = std::max(most, lattice.frame.local(p).x);
-    if (most < 3.7) {
-      EXPECT_FALSE(parts.holds_other(corners, 1));
+    double least = 1e9;
+    for (const LatticePoint& p : corners) least = std::min(least, lattice.frame.local(p).x);
+    if (least > 3.3) {
+      EXPECT_FALSE(parts.holds_other(corners, 0));
     }
-    if (parts.holds_other(corners, 1)) {
-      EXPECT_GT(most, 3.74);
+    if (parts.holds_other(corners, 0)) {
+      EXPECT_LT(least, 3.26);
     }
   }
 }

@@ -130,7 +130,6 @@ TEST(RefineLattice, EveryLabelKeepsTheTopologyOfTheImage) {
     options.keep_topology = keep;
     Lattice lattice = build_bcc_lattice(image, {8, 0.25});
     const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
-    EXPECT_TRUE(result.topology_differences.empty());
     for (std::size_t m = 1; m < image.material_count(); ++m) {
       const auto material = static_cast<MaterialId>(m);
       off[keep ? 1 : 0] += std::abs(euler_of_tets(result.mesh, material) - euler_of_voxels(image, material));

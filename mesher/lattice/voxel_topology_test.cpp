@@ -47,7 +47,7 @@ TEST(VoxelTopology, PartsAreAboutCubesInTheVoxelsPlaces) {
   EXPECT_NEAR(parts.to_physical(parts.local_centre(0, 0, 2)).z, 9, 1e-12);
   EXPECT_NEAR(parts.to_physical(parts.local_centre(0, 0, 0)).x, 7 - 0.125, 1e-12);
   frame.spacing_mm = {0.1, 1, 100};
-  EXPECT_EQ(voxel_parts(frame), (Index3{2, 16, 16})) << "needles and plates have a bound";
+  EXPECT_EQ(voxel_parts(frame), (Index3{2, 8, 8})) << "needles and plates have a bound";
 }
 
 TEST(VoxelTopology, AMovedBoundaryIsNoDifference) {
