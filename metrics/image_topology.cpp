@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "mesher/core/disjoint_sets.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/voxel_rows.hpp"
-#include "metrics/disjoint_sets.hpp"
 
 namespace cbc3d::metrics {
 namespace {

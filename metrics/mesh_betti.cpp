@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "metrics/disjoint_sets.hpp"
+#include "mesher/core/disjoint_sets.hpp"
 #include "metrics/vertex_cells.hpp"
 
 namespace cbc3d::metrics {

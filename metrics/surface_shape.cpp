@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "metrics/disjoint_sets.hpp"
+#include "mesher/core/disjoint_sets.hpp"
 #include "metrics/nearest_voxel.hpp"
 #include "metrics/order_statistics.hpp"
 #include "metrics/reduce.hpp"

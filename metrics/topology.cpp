@@ -4,8 +4,8 @@
 #include <span>
 #include <tuple>
 
+#include "mesher/core/disjoint_sets.hpp"
 #include "metrics/box_tree.hpp"
-#include "metrics/disjoint_sets.hpp"
 #include "metrics/hanging_vertices.hpp"
 
 namespace cbc3d::metrics {

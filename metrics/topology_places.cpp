@@ -8,7 +8,7 @@
 #include <tuple>
 #include <unordered_set>
 
-#include "metrics/disjoint_sets.hpp"
+#include "mesher/core/disjoint_sets.hpp"
 #include "metrics/mesh_raster.hpp"
 #include "metrics/nearest_voxel.hpp"
 #include "metrics/reduce.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/core/disjoint_sets.hpp"
 #include "mesher/core/voxel_rows.hpp"
-#include "metrics/disjoint_sets.hpp"
 
 namespace cbc3d::metrics {
 namespace {

@@ -53,7 +53,7 @@ nlohmann::json topology_json(const TopologyReport& topology, const std::vector<T
           {"non_manifold_vertices_left", topology.non_manifold_vertices_left},
           {"tets_relabelled", topology.tets_relabelled},
           {"components_removed", topology.components_removed},
-          {"places_not_kept", differences},
+          {"difference_places", differences},
           {"labels", labels}};
 }
 
@@ -168,7 +168,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
            {{"rounds", report.refine.rounds},
             {"finest_spacing_mm", report.finest_spacing_mm},
             {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
-          {"topology", run.options.topology.enabled ? topology_json(report.topology, report.topology_places)
+          {"topology", run.options.topology.enabled ? topology_json(report.topology, report.difference_places)
                                                     : nlohmann::json()},
           {"materials", fidelity_json(report)},
           {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},

@@ -10,7 +10,8 @@ namespace cbc3d {
 
 class ExactVoxels {
  public:
-  explicit ExactVoxels(const ImageFrame& frame) : frame_(frame), is_exact_(frame.voxel_count()) {}
+  explicit ExactVoxels(const ImageFrame& frame)
+      : frame_(frame), is_exact_(frame.voxel_count()), is_stubborn_(frame.voxel_count()) {}
 
   /// Adds the voxels of `places`, and the misplaced ones among the 26 around each: an error in topology is
   /// the whole of a tunnel that was filled, not the voxel that could not be filled last. Called again while
@@ -18,10 +19,16 @@ class ExactVoxels {
   void add(const std::vector<std::size_t>& places, const std::vector<std::size_t>& misplaced);
 
   [[nodiscard]] bool holds(const Vec3& local_mm) const;
+  /// True in voxels that were a place again after they were exact: their own labels are not enough there, the
+  /// lattice is too coarse.
+  [[nodiscard]] bool is_stubborn(const Vec3& local_mm) const;
 
  private:
+  [[nodiscard]] bool test(const VoxelBits& bits, const Vec3& local_mm) const;
+
   ImageFrame frame_;
   VoxelBits is_exact_;
+  VoxelBits is_stubborn_;
 };
 
 }  // namespace cbc3d

@@ -24,6 +24,12 @@ TEST(ExactVoxels, APlaceTakesItsMisplacedNeighboursAlong) {
   EXPECT_FALSE(is_exact(3, 4, 3));  // two steps away
   EXPECT_FALSE(is_exact(5, 5, 3));  // beside it, but not misplaced
 
+  // What comes again is stubborn, and only that.
+  EXPECT_FALSE(exact.is_stubborn(frame.local_centre(5, 4, 3)));
+  exact.add({place}, misplaced);
+  EXPECT_TRUE(exact.is_stubborn(frame.local_centre(5, 4, 3)));
+  EXPECT_FALSE(exact.is_stubborn(frame.local_centre(6, 4, 3)));
+
   // A place at the image's corner has fewer neighbours.
   exact.add({0}, {0, frame.offset(1, 1, 1)});
   EXPECT_TRUE(is_exact(0, 0, 0));

@@ -12,6 +12,7 @@
 #include "mesher/lattice/check_topology.hpp"
 #include "mesher/lattice/exact_voxels.hpp"
 #include "mesher/lattice/fidelity_account.hpp"
+#include "mesher/lattice/label_betti.hpp"
 #include "mesher/lattice/lattice_places.hpp"
 #include "mesher/lattice/part_raster.hpp"
 #include "mesher/lattice/red_green.hpp"
@@ -45,6 +46,7 @@ class Refiner {
     }
     if (options.keep_topology) {
       parts_.emplace(image_, lattice.frame);
+      betti_of_image_.emplace(image_);
     }
   }
 
@@ -322,51 +324,49 @@ class Refiner {
     if (count_splittable() == 0 && options_.max_distance_mm > 0 && options_.topology_checks &&
         repairs_ < options_.repair_rounds) {
       ++repairs_;
-      mark_what_repair_loses();
+      mark_what_repair_loses(false);
       const std::size_t lost = count_splittable();
       return lost > 0 ? lost : mark_topology_differences();
     }
     return count_splittable();
   }
 
-  /// What is to be kept is the mesh after the repair of its topology, so that is judged as well: where the
-  /// repair takes a boundary voxel's interface away, a finer lattice keeps it.
-  void mark_what_repair_loses() {
+  /// The repaired mesh is what is kept, so it is judged as well: a finer lattice keeps what a repair takes
+  /// away.
+  void mark_what_repair_loses(bool drop_crumbs) {
     repair_topology(result_.mesh, points_, domain_,
                     {.enabled = true,
                      .one_face_rule = options_.one_face_rule,
                      .image_passes = options_.repair_image_passes,
-                     .drop_crumbs = options_.keep_topology,
+                     .drop_crumbs = drop_crumbs,
                      .small_component = 0});
     judge();
   }
 
-  /// Where the repaired mesh has another topology than the image, voxels around are taken as they are, on a
-  /// lattice finer than they are. Returns how many tets of it are to be split or to be labelled anew.
+  /// Where a label of the repaired mesh has another topology than in the image, voxels are taken as they are
+  /// on a finer lattice. Returns how many tets are to be split or labelled anew.
   std::size_t mark_topology_differences() {
-    if (!options_.keep_topology) {
+    if (!options_.keep_topology || betti_of_image_->unlike_labels(result_.mesh, points_).empty()) {
       return 0;
     }
+    mark_what_repair_loses(true);
     const std::vector<MisplacedPart> misplaced = parts_->misplaced(lattice_, result_.mesh);
-    result_.topology_differences = find_topology_differences(image_, misplaced);
-    is_topology_kept_ = result_.topology_differences.empty();
-    if (is_topology_kept_) {
-      return 0;
-    }
+    const auto places =
+        find_topology_differences(image_, misplaced, betti_of_image_->unlike_labels(result_.mesh, points_));
     if (!exact_) {
       exact_.emplace(image_.frame);
     }
-    exact_->add(result_.topology_differences, voxels_of_parts(image_.frame, misplaced));
+    exact_->add(places, voxels_of_parts(image_.frame, misplaced));
     std::size_t changed = 0;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : changed)
     for (std::size_t t = 0; t < judged_.size(); ++t) {
       changed += take_voxels(t) ? 1 : 0;
     }
-    return changed;
+    return changed + count_splittable();
   }
 
-  /// True when the tet is in an exact voxel and has another label, or holds a part of another label still and
-  /// is to be split.
+  /// True when the tet is in an exact voxel and is labelled anew, or holds a part of another label and is
+  /// split.
   bool take_voxels(std::size_t t) {
     const Vec3 centroid = centroid_of(t);
     if (!exact_->holds(centroid)) {
@@ -374,8 +374,8 @@ class Refiner {
     }
     const MaterialId now = image_.at_local(centroid);
     const MaterialId before = std::exchange(centroid_material_[t], now);
-    const bool is_split =
-        level_of(t) < lattice_.frame.max_level && parts_->holds_other(lattice_points(t), now);
+    const bool is_split = level_of(t) < lattice_.frame.max_level &&
+                          (exact_->is_stubborn(centroid) || parts_->holds_other(lattice_points(t), now));
     if (is_split) {
       mark_tet(t);
     }
@@ -476,10 +476,19 @@ class Refiner {
         any = true;
       }
     }
+    if (any) {
+      mark_tets_at(bad, [](std::size_t) { return true; });
+    }
+  }
+
+  /// Marks the tets at flagged vertices, of those that may be split.
+  template <typename MaySplit>
+  void mark_tets_at(const std::vector<std::uint8_t>& flagged, const MaySplit& may_split) {
     const TetNodes& nodes = result_.mesh.tets.nodes;
-#pragma omp parallel for schedule(static, 1024) if (any)
-    for (std::size_t t = 0; t < (any ? nodes.size() : 0); ++t) {
-      if (std::any_of(nodes[t].begin(), nodes[t].end(), [&](VertexId v) { return bad[v] != 0; })) {
+#pragma omp parallel for schedule(static, 1024)
+    for (std::size_t t = 0; t < nodes.size(); ++t) {
+      const auto& n = nodes[t];
+      if ((flagged[n[0]] | flagged[n[1]] | flagged[n[2]] | flagged[n[3]]) != 0 && may_split(t)) {
         mark_tet(t);
       }
     }
@@ -488,18 +497,11 @@ class Refiner {
   /// The paper: when the fidelity is settled, the tets around non-manifold vertices and edges are split in
   /// the next round.
   void mark_non_manifold() {
-    const CandidateMesh& mesh = result_.mesh;
     std::vector<std::uint8_t> bad(points_.size(), 0);
-    for (const VertexId v : non_manifold_vertices(mesh, points_.size(), image_.labels)) {
+    for (const VertexId v : non_manifold_vertices(result_.mesh, points_.size(), image_.labels)) {
       bad[v] = 1;
     }
-#pragma omp parallel for schedule(static, 1024)
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      const auto& n = mesh.tets.nodes[t];
-      if ((bad[n[0]] | bad[n[1]] | bad[n[2]] | bad[n[3]]) != 0 && may_split_for_fidelity(t)) {
-        mark_tet(t);
-      }
-    }
+    mark_tets_at(bad, [this](std::size_t t) { return may_split_for_fidelity(t); });
   }
 
   [[nodiscard]] std::size_t count_splittable() const {
@@ -546,11 +548,6 @@ class Refiner {
   }
 
   void finish() {
-    if (options_.keep_topology && !is_topology_kept_) {  // the rounds ended before it was
-      mark_what_repair_loses();
-      result_.topology_differences =
-          find_topology_differences(image_, parts_->misplaced(lattice_, result_.mesh));
-    }
     result_.uncovered_voxels = uncovered_count();
     result_.fidelity.erase(result_.fidelity.begin());  // background
     const auto unmet = warnings_of_unmet_fidelity(result_.fidelity, options_.finest_spacing_mm);
@@ -586,7 +583,7 @@ class Refiner {
   std::vector<std::uint8_t> marked_;
   int topology_rounds_ = 0;
   int repairs_ = 0;
-  bool is_topology_kept_ = false;
+  std::optional<ImageBetti> betti_of_image_;  // with keep_topology
   RefineResult result_;
 };
 

@@ -38,8 +38,9 @@ struct RefineOptions {
   int repair_rounds =
       0;  ///< how often, at most, the distance is judged again after the repair of the topology
   int repair_image_passes = 0;  ///< TopologyOptions::image_passes of that repair
-  bool keep_topology = false;   ///< with repair_rounds: refine also where the repaired mesh has another
-                                ///< topology than the image, and take the voxels' own labels there
+  bool keep_topology = false;   ///< with repair_rounds, of well-composed images: refine also where a label of
+                                ///< the repaired mesh has another topology than in the image, and take the
+                                ///< voxels' own labels there
   int max_rounds = 40;          ///< a bound that is never reached unless something is wrong
 };
 
@@ -47,8 +48,6 @@ struct RefineResult {
   CandidateMesh mesh;
   std::vector<MaterialFidelity> fidelity;  ///< one per labelled material
   std::size_t uncovered_voxels = 0;  ///< boundary voxels beyond max_distance_mm that could not be reached
-  std::vector<std::size_t> topology_differences;  ///< with keep_topology: offsets of voxels where a label's
-                                                  ///< topology could not be kept, ascending
   int rounds = 0;
   std::vector<std::string> warnings;  ///< which materials fall short, and why the rounds ended
 };

@@ -13,8 +13,10 @@ namespace {
 /// The image on its way to the mesh's labels.
 class Transition {
  public:
-  Transition(const LabelImage& image, const std::vector<MisplacedPart>& misplaced)
+  Transition(const LabelImage& image, const std::vector<MisplacedPart>& misplaced,
+             const std::vector<Label>& labels)
       : image_(image),
+        labels_(labels),
         parts_(voxel_parts(image.frame)),
         frame_(part_frame(image.frame)),
         misplaced_(misplaced),
@@ -71,8 +73,8 @@ class Transition {
     return from == to || (is_simple_for(label, from) && is_simple_for(label, to));
   }
 
-  static bool is_simple_for(const std::array<Label, 27>& label, Label own) {
-    if (own == 0) {
+  [[nodiscard]] bool is_simple_for(const std::array<Label, 27>& label, Label own) const {
+    if (std::find(labels_.begin(), labels_.end(), own) == labels_.end()) {
       return true;
     }
     VoxelNeighbourhood around{};
@@ -106,6 +108,7 @@ class Transition {
   }
 
   const LabelImage& image_;
+  const std::vector<Label>& labels_;
   const Index3 parts_;
   const ImageFrame frame_;  // of the parts
   const std::vector<MisplacedPart>& misplaced_;
@@ -141,8 +144,9 @@ ImageFrame part_frame(const ImageFrame& image) {
 }
 
 std::vector<std::size_t> find_topology_differences(const LabelImage& image,
-                                                   const std::vector<MisplacedPart>& misplaced) {
-  return voxels_of_parts(image.frame, Transition(image, misplaced).run());
+                                                   const std::vector<MisplacedPart>& misplaced,
+                                                   const std::vector<Label>& labels) {
+  return voxels_of_parts(image.frame, Transition(image, misplaced, labels).run());
 }
 
 std::vector<std::size_t> voxels_of_parts(const ImageFrame& image, const std::vector<MisplacedPart>& parts) {

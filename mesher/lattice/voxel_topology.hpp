@@ -27,9 +27,10 @@ struct MisplacedPart {
 };
 
 /// Offsets in the image, ascending, of the voxels with misplaced parts that cannot take the mesh's label
-/// without a change of topology of a label, background aside. `misplaced` ascends by offset.
+/// without a change of topology of one of `labels`, none of them background. `misplaced` ascends by offset.
 std::vector<std::size_t> find_topology_differences(const LabelImage& image,
-                                                   const std::vector<MisplacedPart>& misplaced);
+                                                   const std::vector<MisplacedPart>& misplaced,
+                                                   const std::vector<Label>& labels);
 
 /// The voxels that have misplaced parts: offsets in the image, ascending.
 std::vector<std::size_t> voxels_of_parts(const ImageFrame& image, const std::vector<MisplacedPart>& parts);

@@ -9,6 +9,7 @@
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/domain/tolerances.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
+#include "mesher/lattice/part_raster.hpp"
 #include "mesher/lattice/red_green.hpp"
 
 namespace cbc3d {
@@ -176,20 +177,29 @@ std::vector<TopologyPlace> places_of(const LabelImage& image, const std::vector<
   return places;
 }
 
-/// One line for each label.
-void warn_of_topology_places(MeshImageReport& report) {
-  std::map<Label, std::vector<Vec3>> of_label;
-  for (const TopologyPlace& place : report.topology_places) {
-    of_label[place.label].push_back(place.at_mm);
+/// Of the candidate mesh with the labels that it is kept with.
+void compare_topology(const LabelImage& image, const Lattice& lattice, const CandidateMesh& candidate,
+                      MeshImageReport& report) {
+  report.topology_differences = label_differences(
+      betti_of_labels(image), betti_of_labels(candidate, local_points(lattice), image.labels));
+  if (!report.topology_differences.empty()) {
+    const PartRaster parts(image, lattice.frame);
+    report.difference_places =
+        places_of(image, find_topology_differences(image, parts.misplaced(lattice, candidate),
+                                                   labels_of(report.topology_differences)));
   }
-  for (const auto& [label, places] : of_label) {
-    char text[256];
-    std::snprintf(text, sizeof(text),
-                  "the topology at %zu voxels of %s may not be the cleaned image's, the first at "
-                  "(%.4g, %.4g, %.4g) mm (all in the report); a smaller finest_spacing_mm keeps more",
-                  places.size(), label == 0 ? "background" : ("label " + std::to_string(label)).c_str(),
-                  places.front().x, places.front().y, places.front().z);
-    report.warnings.emplace_back(text);
+}
+
+std::string betti_text(const Betti& betti) {
+  return std::to_string(betti.parts) + ", " + std::to_string(betti.tunnels) + ", " +
+         std::to_string(betti.cavities);
+}
+
+void warn_of_topology_differences(MeshImageReport& report) {
+  for (const LabelDifference& d : report.topology_differences) {
+    report.warnings.push_back("label " + std::to_string(d.label) + " has " + betti_text(d.in_image) +
+                              " parts, tunnels, cavities in the cleaned image and " + betti_text(d.in_mesh) +
+                              " in the mesh (the report has places); a smaller finest_spacing_mm keeps more");
   }
 }
 
@@ -281,8 +291,10 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
       return check_topology(candidate, local_points(lattice), domain, options.topology);
     });
     warn_of_topology(options, report);
-    report.topology_places = places_of(image, report.refine.topology_differences);
-    warn_of_topology_places(report);
+    if (options.refine.keep_topology) {
+      compare_topology(image, lattice, candidate, report);
+    }
+    warn_of_topology_differences(report);
   }
 
   MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {

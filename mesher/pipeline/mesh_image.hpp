@@ -12,6 +12,7 @@
 #include "mesher/deform/deform_mesh.hpp"
 #include "mesher/improve/improve_mesh.hpp"
 #include "mesher/lattice/check_topology.hpp"
+#include "mesher/lattice/label_betti.hpp"
 #include "mesher/lattice/refine_lattice.hpp"
 #include "mesher/mixed/mix_elements.hpp"
 #include "mesher/preprocess/clean_image.hpp"
@@ -38,7 +39,7 @@ struct MeshImageOptions {
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
 };
 
-/// A voxel around which a label's topology may not be the cleaned image's.
+/// A voxel around which a label's topology may have become another than the cleaned image's.
 struct TopologyPlace {
   Label label = 0;  ///< of the voxel
   Vec3 at_mm;       ///< its centre, physical
@@ -54,7 +55,8 @@ struct MeshImageReport {
   CleanReport clean;
   RefineResult refine;  ///< without its mesh
   TopologyReport topology;
-  std::vector<TopologyPlace> topology_places;  ///< where the lattice could not keep it, by voxel
+  std::vector<LabelDifference> topology_differences;  ///< labels of other topology than in the cleaned image
+  std::vector<TopologyPlace> difference_places;  ///< where that may be; none where there is no such label
   MixReport mix;
   DeformReport deform;
   ImproveReport improve;

@@ -42,11 +42,7 @@ MeshImageOptions quality_options(double diagonal_mm) {
   const RefineOptions refine = refinement_by_distance(diagonal_mm);
   return {.clean = {.region_tolerance = 0, .well_composed = true},
           .refine = refine,
-          .topology = {.enabled = true,
-                       .one_face_rule = false,
-                       .image_passes = 4,
-                       .drop_crumbs = true,
-                       .small_component = 0},
+          .topology = {.enabled = true, .one_face_rule = false, .image_passes = 4, .small_component = 0},
           .deform = {.iterations = 0, .displacement = kTargetsOnBoundary},
           .improve = {.enabled = true, .reach_mm = refine.max_distance_mm}};
 }

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace cbc3d::metrics {
+namespace cbc3d {
 
 /// The lowest number of a set is its root.
 class DisjointSets {
@@ -45,4 +45,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace cbc3d::metrics
+}  // namespace cbc3d

@@ -1,8 +1,8 @@
-#include "metrics/disjoint_sets.hpp"
+#include "mesher/core/disjoint_sets.hpp"
 
 #include <gtest/gtest.h>
 
-namespace cbc3d::metrics {
+namespace cbc3d {
 namespace {
 
 TEST(DisjointSets, TheLowestNumberIsTheRoot) {
@@ -29,4 +29,4 @@ TEST(DisjointSets, MembersAreAscendingByTheirRoots) {
 }
 
 }  // namespace
-}  // namespace cbc3d::metrics
+}  // namespace cbc3d
