@@ -13,6 +13,9 @@ namespace cbc3d::tolerances {
 /// The reach: the refinement makes, and the improvement keeps, a vertex of its interface within this of every
 /// boundary voxel.
 inline constexpr double kReach = 1;
+/// Edges of a decimated surface are this many times as long as the reach: measured on organs, vessels and
+/// bones.
+inline constexpr double kEdgesPerReach = 1.7;
 /// What the reach may grow to while bad tets are repaired and self-intersections separated, in steps of
 /// kRepairStep for each round: the last bad tets need a little more distance to move.
 inline constexpr double kRepairReach = 1.1;

@@ -29,7 +29,7 @@ double degrees(double sine_squared) {
 
 /// The lengths that the improvement works with, mm, from the options and the domain's scale.
 struct Lengths {
-  double scale, reach, deviation, smoothness_cap;
+  double scale, reach, deviation, smoothness_cap, surface_edge;
 
   Lengths(const Domain& domain, const ImproveOptions& options)
       : scale(domain.scale_mm()),
@@ -37,7 +37,8 @@ struct Lengths {
         deviation(options.deviation_mm > 0 ? options.deviation_mm : options.deviation_diagonals * scale),
         smoothness_cap(options.smoothness_cap_mm > 0
                            ? options.smoothness_cap_mm
-                           : std::min(deviation, tolerances::kSmoothnessCap * scale)) {}
+                           : std::min(deviation, tolerances::kSmoothnessCap * scale)),
+        surface_edge(options.surface_edge_mm) {}
 };
 
 /// The schedule: rounds in patches, and between them what needs the whole mesh.
@@ -192,7 +193,15 @@ class Improver {
     least_share_ = 0;
   }
 
+  /// The edges of surfaces alone, until they are as long as the distances allow.
   void grow_lengths(double factor) {
+    if (mm_.surface_edge > 0) {
+      mm_.surface_edge *= factor;
+      if (mm_.surface_edge > tolerances::kEdgesPerReach * mm_.reach) {
+        mm_.surface_edge = 0;
+      }
+      return;
+    }
     mm_.reach *= factor;
     mm_.deviation = std::max(mm_.deviation, std::min(factor * mm_.deviation, kLargestDeviation * mm_.scale));
     cover_.reach_mm = mm_.reach;
@@ -203,6 +212,7 @@ class Improver {
     const CollapseOptions all_collapses{.threshold_quality = quality_of_deg(collapse_deg()),
                                         .longest_growth = kLongestGrowth,
                                         .longest_mm = &longest_mm_,
+                                        .longest_on_surface_mm = longest_on_surface_mm(),
                                         .graded = graded,
                                         .optimize_position = true,
                                         .volume_share = kVolumeShare};
@@ -227,6 +237,11 @@ class Improver {
       optimize_worst_angles(patch, goal_);
     });
     sizes_.clear();
+  }
+
+  [[nodiscard]] double longest_on_surface_mm() const {
+    return mm_.surface_edge > 0 ? kLongestPerMean * mm_.surface_edge
+                                : std::numeric_limits<double>::infinity();
   }
 
   [[nodiscard]] double collapse_deg() const {

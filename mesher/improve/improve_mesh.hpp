@@ -23,6 +23,10 @@ struct ImproveOptions {
   double reach_mm = 0;      ///< every boundary sample keeps a covering vertex within this; 0: kReach scales
   double deviation_mm = 0;  ///< facets stay within this of the boundary; 0: deviation_diagonals scales
   double deviation_diagonals = tolerances::kDeviation;
+  /// The mean length of edges on interfaces, about: the decimation makes none longer than 1.4 times that; 0:
+  /// as long as reach and deviation allow. For edges shorter than those, at which a smaller reach would have
+  /// the surface follow the steps of the voxels.
+  double surface_edge_mm = 0;
   double surface_weight =
       1000;  ///< weight of the distances from the boundary, in scales, against the tets' shape
   /// In [0,1]: the share of the surface weight that goes to smooth surfaces, see RelaxOptions; 0: none.

@@ -5,6 +5,7 @@
 // their red tets, so a red tet that was split moves all that come after it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,12 @@ struct CandidateMesh {
   TetNeighbours neighbours;
   /// 0 for a vertex at which every label's surface is known to be a manifold; empty: nothing is known.
   std::vector<std::uint8_t> unsure = {};
+
+  /// True where a tet of another material is across one of the faces.
+  [[nodiscard]] bool is_at_interface(std::size_t t) const {
+    return std::any_of(neighbours[t].begin(), neighbours[t].end(),
+                       [&](TetId across) { return across != kNoTet && materials[across] != materials[t]; });
+  }
 };
 
 /// Where the tets of each red tet are, and what becomes of them when the lattice changes.

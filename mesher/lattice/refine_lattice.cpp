@@ -395,20 +395,21 @@ class Refiner {
     return true;
   }
 
-  /// Tets of a label that is to have smaller elements.
+  /// Tets of a label, or at interfaces, that are to be smaller.
   void mark_oversized() {
-    if (options_.size_mm.empty() && options_.coarsest_spacing_mm <= 0) {
+    if (options_.size_mm.empty() && options_.coarsest_spacing_mm <= 0 && options_.interface_spacing_mm <= 0) {
       return;
     }
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto limit = [](double spacing_mm) { return spacing_mm > 0 ? spacing_mm : kInfinity; };
     std::vector<double> size_mm =
-        values_of_materials(image_.labels, options_.size_mm,
-                            options_.coarsest_spacing_mm > 0 ? options_.coarsest_spacing_mm : kInfinity);
+        values_of_materials(image_.labels, options_.size_mm, limit(options_.coarsest_spacing_mm));
     size_mm[kBackground] = options_.size_mm.contains(0) ? size_mm[kBackground] : kInfinity;
-    const std::vector<MaterialId>& materials = result_.mesh.materials;
 #pragma omp parallel for schedule(static, 1024)
-    for (std::size_t t = 0; t < materials.size(); ++t) {
-      if (lattice_.frame.spacing_mm(level_of(t)) > size_mm[materials[t]]) {
+    for (std::size_t t = 0; t < judged_.size(); ++t) {
+      const double spacing_mm = lattice_.frame.spacing_mm(level_of(t));
+      if (spacing_mm > size_mm[result_.mesh.materials[t]] ||
+          (spacing_mm > limit(options_.interface_spacing_mm) && result_.mesh.is_at_interface(t))) {
         mark_tet(t);
       }
     }

@@ -30,7 +30,8 @@ struct RefineOptions {
   bool smooth_labels = false;    ///< a tet takes the material whose smoothed share is largest at its centroid
   bool each_interface = false;   ///< the distance is judged for every interface, not for every material
   double coarsest_spacing_mm = 0;  ///< > 0: no tet of a label is of a coarser level than this lattice spacing
-  double finest_spacing_mm = 0;    ///< the fidelity criterion splits no tet below this lattice spacing, mm;
+  double interface_spacing_mm = 0;  ///< > 0: the same of the tets at interfaces
+  double finest_spacing_mm = 0;     ///< the fidelity criterion splits no tet below this lattice spacing, mm;
                                  ///< 0: the smallest voxel spacing (the distance criterion: a quarter of it)
   bool one_face_rule = true;     ///< the paper's: a candidate tet has at most one face towards background
   bool topology_checks = false;  ///< refine around non-manifold places once the fidelity is settled

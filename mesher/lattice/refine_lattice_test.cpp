@@ -139,18 +139,24 @@ TEST(RefineLattice, EveryLabelKeepsTheTopologyOfTheImage) {
   EXPECT_EQ(off[1], 0);
 }
 
-TEST(RefineLattice, NoTetOfALabelIsCoarserThanAsked) {
+TEST(RefineLattice, NoTetOfALabelOrAtAnInterfaceIsCoarserThanAsked) {
   const LabelImage image = touching_balls();
   const ImageDomain domain(image);
-  Lattice lattice = build_bcc_lattice(image, {8, 0.5});
-  RefineOptions options;
-  options.fidelity = 0.01;
-  options.coarsest_spacing_mm = 2;
-  const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
-  for (std::size_t t = 0; t < result.mesh.tets.size(); ++t) {
-    if (result.mesh.materials[t] != kBackground) {
-      ASSERT_LE(lattice.frame.spacing_mm(lattice.reds[result.mesh.tets.parent[t]].level), 2);
+  for (const bool at_interfaces : {false, true}) {
+    Lattice lattice = build_bcc_lattice(image, {8, 0.5});
+    RefineOptions options;
+    options.fidelity = 0.01;
+    (at_interfaces ? options.interface_spacing_mm : options.coarsest_spacing_mm) = 1;
+    const RefineResult result = refine_lattice(lattice, domain, options, [](int, std::size_t) {});
+    std::size_t coarse = 0;
+    for (std::size_t t = 0; t < result.mesh.tets.size(); ++t) {
+      if (lattice.frame.spacing_mm(lattice.reds[result.mesh.tets.parent[t]].level) > 1) {
+        ASSERT_FALSE(at_interfaces ? result.mesh.is_at_interface(t)
+                                   : result.mesh.materials[t] != kBackground);
+        ++coarse;
+      }
     }
+    EXPECT_GT(coarse, 0U);
   }
 }
 

@@ -227,19 +227,24 @@ std::size_t labelled_tets(const CandidateMesh& mesh) {
          static_cast<std::size_t>(std::count(mesh.materials.begin(), mesh.materials.end(), kBackground));
 }
 
-/// The lengths of refinement and improvement, all by one factor.
+/// The lengths of refinement and improvement, all by one factor. Below 1 the surfaces have shorter edges and
+/// the lattice there is finer, but they may stay as far from the voxels as before: half a voxel is what an
+/// image is sure of, and surfaces that had to come nearer would follow its steps.
 void scale_lengths(double factor, RefineOptions& refine, ImproveOptions& improve) {
-  refine.max_distance_mm *= factor;
-  improve.reach_mm = refine.max_distance_mm;
-  improve.deviation_diagonals *= factor;
+  constexpr double kSpacingPerEdge = 0.75;  // levels halve it, so that the lattice has .4 to .75 of the edges
+  const double natural_mm = tolerances::kEdgesPerReach * refine.max_distance_mm;
   if (factor < 1) {
-    refine.coarsest_spacing_mm = tolerances::kLargestInner * refine.max_distance_mm;
+    const double edge_mm = factor * (improve.surface_edge_mm > 0 ? improve.surface_edge_mm : natural_mm);
+    improve.reach_mm = refine.max_distance_mm;
+    improve.surface_edge_mm = edge_mm;
+    refine.interface_spacing_mm = kSpacingPerEdge * edge_mm;
+    refine.coarsest_spacing_mm = tolerances::kLargestInner / tolerances::kEdgesPerReach * edge_mm;
+  } else {
+    refine.max_distance_mm *= factor;
+    improve.reach_mm = refine.max_distance_mm;
+    improve.deviation_diagonals *= factor;
   }
 }
-
-/// Edges of a decimated surface are this many times as long as the reach: measured on organs, vessels and
-/// bones.
-constexpr double kEdgesPerReach = 1.7;
 
 /// The refinement, and again with smaller lengths while the lattice has too few tets for the decimation to
 /// choose from, where a number of elements is asked for.
@@ -274,7 +279,8 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
   ImproveOptions improve = options.improve;
   improve.target_tets = options.elements;
   if (options.edge_length_mm > 0 && improve.enabled) {
-    scale_lengths(options.edge_length_mm / (kEdgesPerReach * refine.max_distance_mm), refine, improve);
+    scale_lengths(options.edge_length_mm / (tolerances::kEdgesPerReach * refine.max_distance_mm), refine,
+                  improve);
   }
   report.refine = log.run("adaptive_refinement", 0.1, [&] {
     return refine_for(lattice, domain, options, refine, improve, [&](int round, std::size_t tets) {

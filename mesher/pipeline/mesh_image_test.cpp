@@ -326,6 +326,34 @@ TEST(MeshImage, AnEdgeLengthIsThatOfTheSurfaces) {
   }
 }
 
+/// A surface with edges as short as a voxel is as smooth as one with long ones, and nearer to the ball.
+TEST(MeshImage, ShortEdgesDoNotFollowTheStepsOfTheVoxels) {
+  const LabelImage image = testing::ball_image(48, 1, 18);
+  MeshImageOptions options = preset_options("quality", image.frame);
+  options.edge_length_mm = 1;
+  MeshImageReport report;
+  const Mesh mesh = mesh_of(image, options, report);
+  const auto neighbours = tet_neighbours(mesh.tets.nodes, mesh.points.size());
+  const Vec3 centre = {23.5, 23.5, 23.5};
+  double sum_deg = 0;
+  double largest_mm = 0;
+  std::size_t facets = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      if (neighbours[t][n] != kNoTet) continue;
+      std::array<Vec3, 3> p{};
+      for (std::size_t c = 0; c < 3; ++c) p[c] = mesh.points[mesh.tets.nodes[t][kTetFace[n][c]]] - centre;
+      const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+      const double cosine = std::fabs(normal.dot((p[0] + p[1] + p[2]).normalized()));
+      sum_deg += std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi;
+      for (const Vec3& corner : p) largest_mm = std::max(largest_mm, std::fabs(corner.norm() - 18));
+      ++facets;
+    }
+  }
+  EXPECT_LE(sum_deg / static_cast<double>(facets), 6);
+  EXPECT_LE(largest_mm, 0.4);
+}
+
 TEST(MeshImage, ADialWithoutEffectIsRefused) {
   const LabelImage image = testing::ball_image(16, 1, 5);
   for (const bool of_elements : {true, false}) {

@@ -97,6 +97,9 @@ class EdgeCollapser {
         longest = std::min(longest, (*options_.longest_mm)[mesh_.material(t)]);
       }
     }
+    if (on_facets_) {
+      longest = std::min(longest, options_.longest_on_surface_mm);
+    }
     longest_squared_ = longest * longest;
   }
 

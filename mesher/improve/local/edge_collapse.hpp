@@ -4,6 +4,8 @@
 // may break a bound of angle or of distance.
 #pragma once
 
+#include <limits>
+
 #include "mesher/improve/local/patch.hpp"
 
 namespace cbc3d {
@@ -12,7 +14,8 @@ struct CollapseOptions {
   double threshold_quality = 0.1;  ///< new tets are no worse than this
   double longest_growth = 2.5;     ///< longest new edge, in multiples of the mean old one
   const std::vector<double>* longest_mm =
-      nullptr;                       ///< longest new edge in tets of each material; null: no limit
+      nullptr;  ///< longest new edge in tets of each material; null: no limit
+  double longest_on_surface_mm = std::numeric_limits<double>::infinity();  ///< at vertices on interfaces
   std::size_t largest_valence = 26;  ///< edges at the vertex that is left, unless one of the two had more
   bool only_bad =
       false;            ///< only vertices of tets below the threshold, where a collapse lifts the worst angle

@@ -11,6 +11,7 @@
 #include "mesher/improve/local/testing_trial.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
 #include "mesher/testing/test_images.hpp"
+#include "mesher/topology/tet_adjacency.hpp"
 
 namespace cbc3d {
 namespace {
@@ -53,6 +54,36 @@ TEST(EdgeCollapse, CollapsesStayWithinTheLongestEdge) {
   });
   EXPECT_GT(collapsed, 5U);
   EXPECT_LE(longest(), limit * (1 + 1e-9));
+}
+
+TEST(EdgeCollapse, EdgesOfSurfacesHaveALimitOfTheirOwn) {
+  Trial trial(touching_balls());
+  trial.apply([&](Patch& p) { relax_vertices(p, kRelax); });
+  const auto longest = [&](bool on_surface) {
+    const auto neighbours = tet_neighbours(trial.mesh.tets, trial.mesh.points.size());
+    double squared = 0;
+    for (std::size_t t = 0; t < trial.mesh.tets.size(); ++t) {
+      for (std::size_t n = 0; n < 4; ++n) {
+        const TetId across = neighbours[t][n];
+        const bool inner = across != kNoTet && trial.mesh.materials[across] == trial.mesh.materials[t];
+        for (std::size_t c = 0; inner != on_surface && c < 3; ++c) {
+          const Vec3& p = trial.mesh.points[trial.mesh.tets[t][kTetFace[n][c]]];
+          const Vec3& q = trial.mesh.points[trial.mesh.tets[t][kTetFace[n][(c + 1) % 3]]];
+          squared = std::max(squared, (p - q).squared_norm());
+        }
+      }
+    }
+    return std::sqrt(squared);
+  };
+  const double limit = 1.1 * longest(true);
+  std::size_t collapsed = 0;
+  trial.apply([&](Patch& p) {
+    collapsed +=
+        collapse_edges(p, {.threshold_quality = 0.05, .longest_growth = 10, .longest_on_surface_mm = limit});
+  });
+  EXPECT_GT(collapsed, 5U);
+  EXPECT_LE(longest(true), limit * (1 + 1e-9));
+  EXPECT_GT(longest(false), limit);
 }
 
 TEST(EdgeCollapse, CollapsesThatPlaceAnewKeepTheGuardsAndThinOutFurther) {

@@ -1,15 +1,14 @@
 // Shape of one tet: the quality that guards bound, and a smooth energy for moves.
 //
 // Notation: sine_squared  the smallest squared sine of a tet's six dihedral angles, so that 20 and 160
-// degrees are
-//                         equally bad;
+//                         degrees are equally bad;
 //           mean ratio    12 (3 V)^(2/3) / E with V the volume and E the sum of the squared edge lengths: 1
-//           for the
-//                         regular tet, 0 for a flat one (Liu and Joe, BIT 34, 1994);
-//           quality       the smaller of sine_squared and kMeanRatioShare (mean ratio)^1.5; -1 for a tet
-//           without
-//                         volume or turned inside out. Angles alone let pass what interpolates badly: tets
-//                         with one edge many times as long as another.
+//                         for the regular tet, 0 for a flat one (Liu and Joe, BIT 34, 1994);
+//           edge ratio    the longest edge over the shortest one;
+//           quality       the smallest of sine_squared, kMeanRatioShare (mean ratio)^1.5 and
+//                         kEdgeRatioShare / (edge ratio)^2; -1 for a tet without volume or turned inside out.
+//                         Angles alone let pass what interpolates and conditions badly: tets with one edge
+//                         many times as long as another.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +23,10 @@ namespace cbc3d {
 /// The factor of the mean ratio's term: a worst angle of 20 degrees is as good as a mean ratio of .30, one of
 /// 35 degrees as one of .60.
 inline constexpr double kMeanRatioShare = 0.7;
+
+/// The factor of the edge ratio's term: a worst angle of 20 degrees is as good as an edge ratio of 5.8, one
+/// of 35 degrees as one of 3.5.
+inline constexpr double kEdgeRatioShare = 4;
 
 /// The quality that a worst angle in degrees gives: the unit of all guards.
 inline double quality_of_deg(double angle_deg) {
@@ -67,9 +70,13 @@ inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
     return angles;
   }
   const double det = (b - a).cross(c - a).dot(d - a);
-  const double edges = (b - a).squared_norm() + (c - a).squared_norm() + (d - a).squared_norm() +
-                       (c - b).squared_norm() + (d - b).squared_norm() + (d - c).squared_norm();
-  return std::min(angles, kFactor * det / (edges * std::sqrt(edges)));
+  const std::array<double, 6> squares = {(b - a).squared_norm(), (c - a).squared_norm(),
+                                         (d - a).squared_norm(), (c - b).squared_norm(),
+                                         (d - b).squared_norm(), (d - c).squared_norm()};
+  const double edges = squares[0] + squares[1] + squares[2] + squares[3] + squares[4] + squares[5];
+  const double shortest = std::min({squares[0], squares[1], squares[2], squares[3], squares[4], squares[5]});
+  const double longest = std::max({squares[0], squares[1], squares[2], squares[3], squares[4], squares[5]});
+  return std::min({angles, kFactor * det / (edges * std::sqrt(edges)), kEdgeRatioShare * shortest / longest});
 }
 
 /// The inverse mean ratio (Liu and Joe, BIT 34, 1994) to the power p = 3, with its derivatives by the first

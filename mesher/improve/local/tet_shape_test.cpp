@@ -162,5 +162,34 @@ TEST(TetQuality, ItsSecondTermIsTheMeanRatioToThePowerOneAndAHalf) {
               1e-12);
 }
 
+TEST(TetQuality, IsTheSmallestOfItsThreeTermsAndEachOfThemDecidesSomewhere) {
+  std::mt19937 random(3);
+  std::array<int, 3> decides{};
+  for (int i = 0; i < 4000; ++i) {
+    Tet t;
+    for (Vec3& p : t) p = draw_point(random, -1, 1);
+    if (six(t) <= 0) std::swap(t[0], t[1]);
+    double edges = 0;
+    double shortest = 1e9;
+    double longest = 0;
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const double length = (t[a] - t[b]).norm();
+        edges += length * length;
+        shortest = std::min(shortest, length);
+        longest = std::max(longest, length);
+      }
+    }
+    const double mean_ratio = 12 * std::pow(0.5 * six(t), 2.0 / 3) / edges;
+    const std::array<double, 3> terms = {smallest_sine_squared(t),
+                                         kMeanRatioShare * std::pow(mean_ratio, 1.5),
+                                         kEdgeRatioShare * std::pow(shortest / longest, 2)};
+    const auto* least = std::min_element(terms.begin(), terms.end());
+    ++decides[static_cast<std::size_t>(least - terms.begin())];
+    EXPECT_NEAR(tet_quality(t[0], t[1], t[2], t[3]), *least, 1e-9);
+  }
+  for (const int count : decides) EXPECT_GT(count, 10);
+}
+
 }  // namespace
 }  // namespace cbc3d
