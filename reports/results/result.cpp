@@ -11,6 +11,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/parse_json.hpp"
 #include "metrics/catalog.hpp"
 
 namespace cbc3d::reports {
@@ -129,15 +130,15 @@ std::vector<Json> read_results(const std::filesystem::path& file) {
     if (line.empty()) {
       continue;
     }
-    Json result = Json::parse(line, nullptr, false);
+    const std::string subject = "'" + file.string() + "': line " + std::to_string(results.size() + 1);
+    Json result = parse_json<Json>(std::string_view(line), subject);
     if (!result.is_object()) {
-      throw InputError("'" + file.string() + "': line " + std::to_string(results.size() + 1) +
-                       " is no JSON object; remove it");
+      throw InputError(subject + " is no JSON object; remove it");
     }
     for (const char* key : {"case", "mesher"}) {
       if (!result.contains(key) || !result[key].is_string()) {
-        throw InputError("'" + file.string() + "': line " + std::to_string(results.size() + 1) + ": \"" +
-                         key + "\" is missing or no text; remove the line and run its job again");
+        throw InputError(subject + ": \"" + key +
+                         "\" is missing or no text; remove the line and run its job again");
       }
     }
     results.push_back(std::move(result));

@@ -9,6 +9,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/mesh_io.hpp"
+#include "mesher/core/parse_json.hpp"
 #include "reports/run/child_process.hpp"
 #include "reports/run/provenance.hpp"
 #include "reports/run/reference_work.hpp"
@@ -50,8 +51,7 @@ void set_status(Json& result, const std::string& status, const std::string& reas
 /// The object in a file; empty where there is none or it is broken.
 nlohmann::json read_json(const fs::path& file) {
   std::ifstream stream(file);
-  nlohmann::json content = stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json();
-  return content.is_object() ? content : nlohmann::json::object();
+  return json_object_or_empty<nlohmann::json>(stream);
 }
 
 std::string text_at(const nlohmann::json& object, const char* key) {
