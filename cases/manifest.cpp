@@ -9,7 +9,7 @@
 
 #include "cases/phantoms/registry.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/parse_json.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/plain_name.hpp"
 
 namespace cbc3d::cases {

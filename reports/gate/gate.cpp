@@ -6,7 +6,7 @@
 #include <map>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/parse_json.hpp"
+#include "mesher/core/json_text.hpp"
 #include "reports/gate/gate_job.hpp"
 #include "reports/results/format_number.hpp"
 #include "reports/run/provenance.hpp"

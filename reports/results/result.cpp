@@ -11,7 +11,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/parse_json.hpp"
+#include "mesher/core/json_text.hpp"
 #include "metrics/catalog.hpp"
 
 namespace cbc3d::reports {
@@ -94,7 +94,7 @@ void merge_evaluation(Json& result, const nlohmann::json& evaluation) {
 }
 
 void append_result(const std::filesystem::path& file, const Json& result) {
-  const std::string line = result.dump() + "\n";
+  const std::string line = json_text(result, -1) + "\n";
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     throw JobError("cannot write '" + file.string() + "': " + std::strerror(errno));
@@ -116,7 +116,7 @@ void append_result(const std::filesystem::path& file, const Json& result) {
 void replace_results(const std::filesystem::path& file, const std::vector<Json>& results) {
   std::string text;
   for (const Json& result : results) {
-    text += result.dump() + "\n";
+    text += json_text(result, -1) + "\n";
   }
   write_text_file(file, text);
 }

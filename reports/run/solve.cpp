@@ -5,7 +5,7 @@
 
 #include "baselines/core/adapter.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/parse_json.hpp"
+#include "mesher/core/json_text.hpp"
 #include "reports/run/child_process.hpp"
 
 namespace cbc3d::reports {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/parse_json.hpp"
+#include "mesher/core/json_text.hpp"
 
 namespace cbc3d::reports {
 namespace {

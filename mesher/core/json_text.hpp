@@ -1,4 +1,5 @@
-// JSON texts of others, parsed so that a damaged one is refused in one line.
+// JSON as text: that of others parsed so that a damaged one is refused in one line, ours written whatever
+// names it has.
 #pragma once
 
 #include <algorithm>
@@ -71,6 +72,13 @@ Json json_object_or_empty(std::istream& stream) {
   } catch (const InputError&) {
     return Json::object();
   }
+}
+
+/// The text of JSON, indented by so many blanks (-1: in one line). Bytes that are no UTF-8, as names of files
+/// may have them, are replaced.
+template <typename Json>
+std::string json_text(const Json& json, int indent = 2) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace cbc3d

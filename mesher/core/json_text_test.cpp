@@ -1,4 +1,4 @@
-#include "mesher/core/parse_json.hpp"
+#include "mesher/core/json_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +61,12 @@ TEST(ParseJson, RefusesWhatIsNoJson) {
   for (const char* text : {"", "{", "{\"a\": 1,}", "[1\n2]", "\"\xff\"", "{} {}"}) {
     EXPECT_NE(refusal(text).find("is no JSON"), std::string::npos);
   }
+}
+
+TEST(ParseJson, BytesThatAreNoUtf8AreReplacedWhenWritten) {
+  const Json json = {{"file", "caf\xE9.nii"}, {"label", 1}};
+  EXPECT_EQ(json_text(json, -1), "{\"file\":\"caf\xEF\xBF\xBD.nii\",\"label\":1}");
+  EXPECT_EQ(parse_json<Json>(std::string_view(json_text(json)), "")["label"], 1);
 }
 
 TEST(ParseJson, ReportsThatAreDamagedAreEmptyObjects) {
