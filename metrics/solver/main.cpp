@@ -173,7 +173,7 @@ void run_problem(const std::string& name, const Options& options, solver::Finite
 }
 
 void write(const Options& options, const nlohmann::json& report) {
-  const std::string text = json_text(report) + "\n";
+  const std::string text = cbc3d::json_text(report) + "\n";
   if (options.json.empty()) {
     std::cout << text;
   } else {
