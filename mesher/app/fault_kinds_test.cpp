@@ -290,6 +290,22 @@ TEST_F(FaultKinds, PipesDevicesAndNamesOfAnyBytes) {
   }
 }
 
+TEST_F(FaultKinds, DamagedSlicesAreRefused) {
+  const std::string png("\x89PNG\r\n\x1A\n", 8), no_chunk(50, '\0');
+  const std::string bad_header = std::string("\0\0\0\x0DIHDR", 8) + std::string(17, '\x7F');
+  for (const std::string& bytes :
+       {png + no_chunk, png + bad_header, png, "BM" + std::string(100, '\x7F'), "BM" + no_chunk,
+        "II*" + no_chunk, std::string("MM\0*\0\0\0\x08", 8) + std::string(40, '\xFF'),
+        std::string("hello")}) {
+    expect_refusal("tile " + write("slice", bytes) + " --spacing 1,1,1 --out " + at("o.nrrd"), "cannot read",
+                   "o.nrrd");
+  }
+  for (const char* name : {"/dev/zero", "/dev/null", "."}) {
+    expect_refusal("tile " + std::string(name) + " --spacing 1,1,1 --out " + at("o.nrrd"),
+                   "folder, device or pipe", "o.nrrd");
+  }
+}
+
 TEST_F(FaultKinds, GreyImagesAndNoiseAreRefused) {
   const auto image_of = [](int size, int labels, const std::function<int(int, int, int)>& value) {
     LabelImage image;

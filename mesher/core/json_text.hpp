@@ -37,6 +37,22 @@ inline int json_depth(std::string_view text) {
   return deepest;
 }
 
+/// The number or word around a byte, counted from 1; at most 40 characters of it.
+inline std::string json_word_at(std::string_view text, std::size_t byte) {
+  const auto is_part = [&](std::size_t at) {
+    return at < text.size() && std::string_view(" \t\r\n,:[]{}\"").find(text[at]) == std::string_view::npos;
+  };
+  std::size_t begin = byte > 0 ? byte - 1 : 0;
+  while (begin > 0 && is_part(begin - 1)) {
+    --begin;
+  }
+  std::size_t end = begin;
+  while (is_part(end) && end < begin + 40) {
+    ++end;
+  }
+  return std::string(text.substr(std::min(begin, text.size()), end - begin));
+}
+
 /// The text as JSON. Throws InputError, whose line begins with `subject` (the file in quotes), where it is no
 /// JSON, nests deeper than kMostJsonDepth or has a number beyond those of double precision.
 template <typename Json>
@@ -48,7 +64,8 @@ Json parse_json(std::string_view text, const std::string& subject) {
   try {
     return Json::parse(text);
   } catch (const typename Json::parse_error& error) {
-    throw InputError(subject + " is no JSON: " + error.what());
+    throw InputError(subject + " is no JSON: " + error.what() + ", in '" + json_word_at(text, error.byte) +
+                     "'");
   } catch (const typename Json::out_of_range& error) {
     throw InputError(subject + " has a number beyond those of double precision (" + error.what() +
                      "); correct it");

@@ -53,7 +53,7 @@ TEST(ParseJson, RefusesDeepTextsWithoutOverflowingTheStack) {
 TEST(ParseJson, RefusesNumbersThatAreNoneAndNamesThem) {
   for (const char* number : {"1e999", "-1e999", "NaN", "Infinity", "0x10", "1.", "+1"}) {
     const std::string line = refusal(R"({"figure": )" + std::string(number) + "}");
-    EXPECT_NE(line.find(std::string(number).substr(0, 2)), std::string::npos) << line;
+    EXPECT_NE(line.find(number), std::string::npos) << line;
   }
 }
 

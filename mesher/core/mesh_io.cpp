@@ -169,6 +169,9 @@ void write_as(Format format, const Mesh& mesh, const fs::path& path) {
 
 void require_readable(const fs::path& path) {
   std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+    throw InputError("cannot read '" + path.string() + "': it is a folder, device or pipe; name a mesh file");
+  }
   if (!fs::is_regular_file(path, error)) {
     throw InputError("cannot read '" + path.string() + "': " +
                      (error && error != std::errc::no_such_file_or_directory

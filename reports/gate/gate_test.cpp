@@ -253,7 +253,7 @@ TEST(Gate, BadBaselinesAreRefusedByFileAndKey) {
   const std::size_t at = good.find("\"relative\":") + std::string("\"relative\":").size();
   for (const char* number : {"1e999", "-1e999", "NaN", "Infinity"}) {
     const std::string bad = good.substr(0, at) + number + good.substr(good.find_first_of(",}", at));
-    EXPECT_NE(error_of(bad).find(std::string(number).substr(0, 2)), std::string::npos) << error_of(bad);
+    EXPECT_NE(error_of(bad).find(number), std::string::npos) << error_of(bad);
   }
   const std::vector<std::pair<std::string, Json>> wrong{{"/format", "x"},
                                                         {"/tolerances", 3},
