@@ -43,10 +43,6 @@ struct Slice {
 }
 
 itk::ImageIOBase::Pointer reader_of(const std::string& file) {
-  if (!fs::is_regular_file(file)) {
-    fail(file,
-         fs::exists(file) ? "it is a folder, device or pipe; name a file" : "no such file; check its name");
-  }
   const std::vector<itk::ImageIOBase::Pointer> formats{itk::PNGImageIO::New().GetPointer(),
                                                        itk::BMPImageIO::New().GetPointer()};
   for (const auto& io : formats) {
@@ -235,7 +231,8 @@ std::vector<Page> pages_of(const std::vector<std::string>& files) {
   std::vector<Page> pages;
   for (const std::string& file : files) {
     if (!fs::is_regular_file(file)) {
-      fail(file, "no such file; check its name");
+      fail(file,
+           fs::exists(file) ? "it is a folder, device or pipe; name a file" : "no such file; check its name");
     }
     const std::size_t count = is_tiff(file) ? count_tiff_pages(file) : 1;
     for (std::size_t number = 0; number < count; ++number) {

@@ -18,15 +18,8 @@ namespace {
 
 using Component = itk::ImageIOBase::IOComponentType;
 
-/// The part of an ITK exception's message that describes the fault, in one line.
-std::string brief(const itk::ExceptionObject& error) {
-  std::string text = error.GetDescription();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  const auto colon = text.rfind("): ");
-  if (colon != std::string::npos) {
-    text.erase(0, colon + 3);
-  }
-  return text.empty() ? "unknown fault" : text;
+[[noreturn]] void fail_to_write(const fs::path& path) {
+  throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
 }
 
 template <typename T>
@@ -72,7 +65,7 @@ void require_whole(const fs::path& written, const fs::path& path) {
     std::vector<std::uint8_t> buffer(formats::lead_bytes(header) + formats::voxel_bytes(header));
     formats::read_voxels(header, buffer);
   } catch (const formats::FormatError&) {
-    throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
+    fail_to_write(path);
   }
 }
 
@@ -81,8 +74,8 @@ void write_values(itk::ImageIOBase& io, Component component, const void* values,
   const QuietStandardError quiet;
   try {
     io.Write(values);
-  } catch (const itk::ExceptionObject& error) {
-    throw JobError("cannot write '" + path.string() + "': " + brief(error));
+  } catch (const itk::ExceptionObject&) {
+    fail_to_write(path);
   }
 }
 
