@@ -9,6 +9,8 @@
 #include <set>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
+#include "mesher/core/plain_name.hpp"
 
 namespace cbc3d::baselines {
 namespace {
@@ -60,14 +62,10 @@ Description read_description(const fs::path& file) {
   std::ifstream stream(file);
   if (!stream)
     throw InputError("cannot read '" + file.string() + "'; give the JSON file of an external mesher");
-  try {
-    Description description{file, json::parse(stream)};
-    if (!description.content.is_object())
-      throw InputError("'" + file.string() + "' is no JSON object; see baselines/external.hpp for its keys");
-    return description;
-  } catch (const json::parse_error& error) {
-    throw InputError("'" + file.string() + "' is no JSON: " + error.what());
-  }
+  Description description{file, parse_json<json>(stream, "'" + file.string() + "'")};
+  if (!description.content.is_object())
+    throw InputError("'" + file.string() + "' is no JSON object; see baselines/external.hpp for its keys");
+  return description;
 }
 
 /// Puts values for the names in braces. `value` may throw for a name that it does not know.
@@ -186,10 +184,7 @@ Texts command_of(const Texts& command, const ParameterSpecs& specs, const MeshJo
 
 std::string checked_name(const Description& description) {
   std::string name = description.text(description.content, "name", "a name of letters, digits and hyphens");
-  const bool good = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return c < 128 && (std::isalnum(c) != 0 || c == '-' || c == '_');
-  });
-  if (!good) description.fail("name", "is \"" + name + "\"; use letters, digits and hyphens alone");
+  if (!is_plain_name(name)) description.fail("name", "is " + json(name).dump() + "; give " + kPlainName);
   return "external:" + name;
 }
 

@@ -90,6 +90,8 @@ TEST_F(External, ASizeDialIsReadAndChecked) {
 TEST_F(External, BadFilesAreRefusedByKey) {
   EXPECT_THROW(load_external_mesher(folder_ / "none.json"), InputError);
   EXPECT_NE(error_of("{ no json").find("is no JSON"), std::string::npos);
+  EXPECT_NE(error_of(std::string(80000, '[')).find("deep, more than"), std::string::npos);
+  EXPECT_NE(error_of(R"({"name": 1e999})").find("1e999"), std::string::npos);
   EXPECT_NE(error_of("[]").find("no JSON object"), std::string::npos);
   for (const char* key : {"name", "description", "licence", "command", "output"}) {
     json without = good_;
@@ -99,6 +101,8 @@ TEST_F(External, BadFilesAreRefusedByKey) {
   }
   const std::vector<std::pair<json, std::string>> wrong{
       {{{"name", "a/b"}}, "\"name\""},
+      {{{"name", ".."}}, "\"name\" is \"..\""},
+      {{{"name", std::string(300, 'x')}}, "1 to 80"},
       {{{"colour", "red"}}, "\"colour\" is not a key"},
       {{{"output", "stl"}}, "give vtu, vtk or msh"},
       {{{"command", "tool {image} {mesh}"}}, "give a list of texts"},

@@ -9,6 +9,8 @@
 
 #include "cases/phantoms/registry.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
+#include "mesher/core/plain_name.hpp"
 
 namespace cbc3d::cases {
 namespace {
@@ -110,8 +112,9 @@ void read_image(const Section& image, Case& result) {
   }
   image.require_known_keys({"file", "sha256", "source"});
   result.image_file = image.text("file");
-  if (fs::path(*result.image_file).is_absolute()) {
-    image.fail("file", "is an absolute path, not a name within a data folder");
+  const fs::path path = fs::path(*result.image_file).lexically_normal();
+  if (path.is_absolute() || *path.begin() == "..") {
+    image.fail("file", "is " + json(path.string()).dump() + ", not a name within a data folder");
   }
   result.image_sha256 = read_sha256(image);
   result.image_source = image.text("source");
@@ -158,12 +161,21 @@ DeformationPattern read_deformation_pattern(const Section& section) {
   return result;
 }
 
+/// A text that stands in a row of a table.
+std::string one_line(const Section& section, std::string_view key) {
+  std::string text = section.text(key);
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' '; })) {
+    section.fail(key, "is " + json(text).dump() + ", not one line");
+  }
+  return text;
+}
+
 json parse_file(const fs::path& file) {
   std::ifstream in(file);
   if (!in) {
     throw InputError("cannot read '" + file.string() + "'; check its permissions");
   }
-  json parsed = json::parse(in, nullptr, false);
+  const json parsed = parse_json<json>(in, "'" + file.string() + "'");
   if (!parsed.is_object()) {
     throw InputError("'" + file.string() + "' is not a JSON object; see cases/README.md");
   }
@@ -189,7 +201,10 @@ Case read_case(const fs::path& file) {
                           "deformation_pattern", "paper"});
   Case result;
   result.name = top.text("name");
-  result.title = top.text("title");
+  if (!is_plain_name(result.name)) {
+    top.fail("name", "is " + json(result.name).dump() + "; give " + kPlainName);
+  }
+  result.title = one_line(top, "title");
   const json& suites = top.at("suites");
   if (!suites.is_array() || suites.empty() ||
       !std::all_of(suites.begin(), suites.end(), [](const json& suite) { return suite.is_string(); })) {

@@ -102,11 +102,16 @@ TEST_P(BadManifest, IsRefusedByKey) {
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadManifest,
     ::testing::Values(BadKey{"/name", 7, "\"name\" is 7"}, BadKey{"/title", "", "\"title\""},
-                      BadKey{"/suites", "demo", "\"suites\""}, BadKey{"/suites", json::array(), "\"suites\""},
+                      BadKey{"/name", "../x", "\"name\" is \"../x\""}, BadKey{"/name", "..", "\"name\""},
+                      BadKey{"/name", "", "\"name\""}, BadKey{"/name", "a\nb", "\"name\" is \"a\\nb\""},
+                      BadKey{"/name", "a/b", "\"name\""}, BadKey{"/name", std::string(300, 'x'), "1 to 80"},
+                      BadKey{"/title", "two\nlines", "not one line"}, BadKey{"/suites", "demo", "\"suites\""},
+                      BadKey{"/suites", json::array(), "\"suites\""},
                       BadKey{"/image", "one.nrrd", "\"image\""}, BadKey{"/colour", "red", "\"colour\""},
                       BadKey{"/image/sha", "aa", "\"image.sha\""},
                       BadKey{"/image/sha256", "ABC", "\"image.sha256\""},
                       BadKey{"/image/file", "/etc/one.nrrd", "\"image.file\""},
+                      BadKey{"/image/file", "a/../../one.nrrd", "within a data folder"},
                       BadKey{"/parameters/cgal", 3, "\"parameters.cgal\""},
                       BadKey{"/parameters/cgal/cell-size", {1, 2}, "\"parameters.cgal.cell-size\""},
                       BadKey{"/paper", {1, 2}, "\"paper\""}, BadKey{"/derive", true, "\"derive\""},
@@ -130,7 +135,8 @@ TEST(Manifest, MissingKeysAreNamed) {
     manifest.erase(key);
     EXPECT_NE(error_of(manifest).find("\"" + std::string(key) + "\" is missing"), std::string::npos);
   }
-  EXPECT_NE(error_of("{ no json").find("not a JSON object"), std::string::npos);
+  EXPECT_NE(error_of("{ no json").find("is no JSON"), std::string::npos);
+  EXPECT_NE(error_of(std::string(80000, '[')).find("deep, more than"), std::string::npos);
 }
 
 TEST(Manifest, ParameterSetIsLaidOver) {

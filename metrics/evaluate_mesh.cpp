@@ -1,5 +1,6 @@
 #include "metrics/evaluate_mesh.hpp"
 
+#include "mesher/core/json_text.hpp"
 #include "metrics/evaluate.hpp"
 
 namespace cbc3d::metrics {
@@ -66,7 +67,7 @@ MeshEvaluation evaluate_mesh(const Mesh& mesh, const LabelImage& image, const Ev
   take_fidelity(figures.at("fidelity"), result);
   take_topology(figures.at("topology"), result);
   result.faults = figures.at("faults").get<std::vector<std::string>>();
-  result.json = figures.dump(2);
+  result.json = json_text(figures);
   return result;
 }
 

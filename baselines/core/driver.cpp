@@ -13,6 +13,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/terminal_progress.hpp"
 
@@ -138,7 +139,7 @@ void write_report(const MesherProgram& program, const Request& request, const Pa
       {"counts", {{"vertices", outcome.vertices}, {"tets", outcome.tets}}},
       {"parameters", parameters},
       {"versions", program.versions}};
-  write_text_file(request.job.report, report.dump(2) + "\n");
+  write_text_file(request.job.report, json_text(report) + "\n");
 }
 
 Mesh timed_run(const MesherProgram& program, const LabelImage& image, const ParameterValues& values,

@@ -12,6 +12,7 @@
 #include "mesher/app/segment_command.hpp"
 #include "mesher/app/tile_command.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/one_line.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/pipeline/option_table.hpp"
 
@@ -40,19 +41,19 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success&) {
     return cbc3d::kExitSuccess;
   } catch (const CLI::ParseError& error) {
-    std::cerr << "cbc3d: " << error.what() << " (see --help)\n";
+    std::cerr << "cbc3d: " << cbc3d::one_line(error.what()) << " (see --help)\n";
     return cbc3d::kExitBadInput;
   } catch (const cbc3d::OptionError& error) {
-    std::cerr << "cbc3d: --" << error.what() << '\n';
+    std::cerr << "cbc3d: --" << cbc3d::one_line(error.what()) << '\n';
     return cbc3d::kExitBadInput;
   } catch (const cbc3d::InputError& error) {
-    std::cerr << "cbc3d: " << cbc3d::with_flags(error.what()) << '\n';
+    std::cerr << "cbc3d: " << cbc3d::one_line(cbc3d::with_flags(error.what())) << '\n';
     return cbc3d::kExitBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "cbc3d: out of memory; use a larger --lattice-spacing or a machine with more memory\n";
     return cbc3d::kExitJobFailed;
   } catch (const std::exception& error) {
-    std::cerr << "cbc3d: " << cbc3d::with_flags(error.what()) << '\n';
+    std::cerr << "cbc3d: " << cbc3d::one_line(cbc3d::with_flags(error.what())) << '\n';
     return cbc3d::kExitJobFailed;
   }
   return exit_code;

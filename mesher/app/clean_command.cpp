@@ -9,6 +9,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/pipeline/presets.hpp"
 
@@ -38,7 +39,7 @@ void run(CleanCommand& command) {
   nlohmann::json json = cleaning_json(report, image.frame);
   json["warnings"] = command.input.warnings;
   if (!command.common.report_file.empty()) {
-    write_text_file(command.common.report_file, json.dump(2) + "\n");
+    write_text_file(command.common.report_file, json_text(json) + "\n");
   }
   progress.done();
   for (const std::string& warning : command.input.warnings) {

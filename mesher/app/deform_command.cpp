@@ -10,6 +10,7 @@
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
@@ -54,7 +55,7 @@ void write_report(const DeformCommand& command, const ImageFrame& frame, const M
                                {"deformation", deformation_json(deform)},
                                {"warnings", command.input.warnings},
                                {"peak_rss_bytes", process_peak_rss_bytes()}};
-  write_text_file(command.common.report_file, json.dump(2) + "\n");
+  write_text_file(command.common.report_file, json_text(json) + "\n");
 }
 
 /// The mesh in the image's frame. Throws InputError where they do not lie together.

@@ -18,8 +18,8 @@ void add_image_options(CLI::App& command, ImageInput& input) {
   command
       .add_flag(
           "--many-labels", input.many_labels,
-          "take an image that looks grey: more than 30 labels, and 5 % of the voxels without a neighbour of "
-          "their label or half of the neighbours unlike")
+          "take an image that looks grey (more than 30 labels, and 5 % of the voxels without a neighbour of "
+          "their label or half of the neighbours unlike) or like noise (half of the voxels without one)")
       ->group(kGroup);
 }
 

@@ -11,7 +11,7 @@ namespace cbc3d {
 
 /// What an argument IMAGE may be, for its help.
 inline constexpr const char* kImageFormats =
-    "label image: NIfTI, NRRD, MHA/MHD, Analyze, INRIMAGE, GIPL, MGH/MGZ or MIF";
+    "label image: NIfTI, NRRD, MHA/MHD, Analyze, INRIMAGE, GIPL, MGH/MGZ, MIF or DICOM SEG";
 
 struct ImageInput {
   ReadImageOptions read;

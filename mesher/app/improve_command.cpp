@@ -12,6 +12,7 @@
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
@@ -207,7 +208,7 @@ void run(ImproveCommand& command) {
   const Mesh out = to_physical_mesh(subject.mesh, subject.image);
   write_mesh(out, command.out);
   if (!command.common.report_file.empty()) {
-    write_text_file(command.common.report_file, report_json(command, subject, seconds).dump(2) + "\n");
+    write_text_file(command.common.report_file, json_text(report_json(command, subject, seconds)) + "\n");
   }
   progress.done();
   for (const std::string& warning : subject.warnings) {

@@ -8,6 +8,7 @@
 #include "mesher/app/image_input.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/grey_check.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/read_image.hpp"
 
 namespace cbc3d {
@@ -67,7 +68,7 @@ void run(InfoCommand& command) {
   const LabelImage image = read_input_image(command.image, command.input);
   const nlohmann::json info = info_json(command, image);
   if (command.json) {
-    std::cout << info.dump(2) << '\n';
+    std::cout << json_text(info) << '\n';
   } else {
     print(info);
   }

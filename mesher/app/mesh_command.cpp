@@ -15,6 +15,7 @@
 #include "mesher/app/warning_groups.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
@@ -37,7 +38,7 @@ void write_failure(const MeshCommand& command, const char* status, const std::st
   if (!command.common.report_file.empty()) {
     const nlohmann::json json = {
         {"status", status}, {"reason", reason}, {"peak_rss_bytes", process_peak_rss_bytes()}};
-    write_text_file(command.common.report_file, json.dump(2) + "\n");
+    write_text_file(command.common.report_file, json_text(json) + "\n");
   }
 }
 
@@ -80,7 +81,7 @@ void run(MeshCommand& command) {
   write_mesh(mesh, command.out);
   description.writing_seconds = writing.seconds();
   if (!command.common.report_file.empty()) {
-    write_text_file(command.common.report_file, report_json(description, report, mesh).dump(2) + "\n");
+    write_text_file(command.common.report_file, json_text(report_json(description, report, mesh)) + "\n");
   }
   progress.done();
   for (const std::string& warning : grouped_warnings(report.warnings)) {

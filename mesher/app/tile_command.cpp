@@ -7,11 +7,13 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <span>
 #include <sstream>
 
 #include "mesher/app/subcommand.hpp"
 #include "mesher/app/tiff_pages.hpp"
 #include "mesher/core/atomic_file.hpp"
+#include "mesher/core/child_process.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/terminal_progress.hpp"
 
@@ -41,9 +43,6 @@ struct Slice {
 }
 
 itk::ImageIOBase::Pointer reader_of(const std::string& file) {
-  if (!fs::is_regular_file(file)) {
-    fail(file, "no such file; check its name");
-  }
   const std::vector<itk::ImageIOBase::Pointer> formats{itk::PNGImageIO::New().GetPointer(),
                                                        itk::BMPImageIO::New().GetPointer()};
   for (const auto& io : formats) {
@@ -92,6 +91,40 @@ void require_no_palette(const std::string& file) {
   }
 }
 
+/// What the child sends before the values.
+struct SliceHead {
+  std::size_t width = 0, height = 0, bytes_per_value = 0, channels = 0, bytes = 0;
+  Component component = Component::UCHAR;
+};
+
+/// Memory for a picture of the most pixels that a file of its length may have.
+ChildLimits limits_of(const std::string& file) {
+  constexpr std::uint64_t kLeastMemory = std::uint64_t{1} << 29U, kMostPacked = 2200;
+  const std::uint64_t bytes = fs::file_size(file);
+  return {.memory_bytes = kLeastMemory + kMostPacked * bytes,
+          .cpu_seconds = static_cast<unsigned>(5 + bytes / 1000000)};
+}
+
+/// The libraries for PNG and BMP end the process on some damaged files, so a child reads them.
+void read_and_send(itk::ImageIOBase& io, const std::string& file, const ChildOutput& out) {
+  io.SetFileName(file);
+  io.ReadImageInformation();
+  itk::ImageIORegion region(2);
+  region.SetSize(0, io.GetDimensions(0));
+  region.SetSize(1, io.GetDimensions(1));
+  io.SetIORegion(region);
+  const SliceHead head{.width = io.GetDimensions(0),
+                       .height = io.GetDimensions(1),
+                       .bytes_per_value = io.GetComponentSize(),
+                       .channels = io.GetNumberOfComponents(),
+                       .bytes = static_cast<std::size_t>(io.GetImageSizeInBytes()),
+                       .component = io.GetComponentType()};
+  std::vector<char> values(head.bytes);
+  io.Read(values.data());
+  out.write(std::as_bytes(std::span(&head, 1)));
+  out.write(std::as_bytes(std::span(values)));
+}
+
 Slice read_slice(const std::string& file, std::size_t page) {
   if (is_tiff(file)) {
     return read_tiff_slice(file, page);
@@ -99,23 +132,18 @@ Slice read_slice(const std::string& file, std::size_t page) {
   require_no_palette(file);
   const auto io = reader_of(file);
   Slice slice;
-  try {
-    io->SetFileName(file);
-    io->ReadImageInformation();
-    slice.width = io->GetDimensions(0);
-    slice.height = io->GetDimensions(1);
-    slice.component = io->GetComponentType();
-    slice.bytes_per_value = io->GetComponentSize();
-    itk::ImageIORegion region(2);
-    region.SetSize(0, slice.width);
-    region.SetSize(1, slice.height);
-    io->SetIORegion(region);
-    slice.values.resize(io->GetImageSizeInBytes());
-    io->Read(slice.values.data());
-  } catch (const itk::ExceptionObject&) {
+  ChildProcess child(limits_of(file), [&](const ChildOutput& out) { read_and_send(*io, file, out); });
+  SliceHead head;
+  const bool is_there = child.read(std::as_writable_bytes(std::span(&head, 1)));
+  slice.values.resize(is_there ? head.bytes : 0);
+  if (!is_there || !child.read(std::as_writable_bytes(std::span(slice.values)))) {
     fail(file, "a broken or truncated image; copy it again");
   }
-  keep_first_channel(slice, io->GetNumberOfComponents(), file);
+  slice.width = head.width;
+  slice.height = head.height;
+  slice.component = head.component;
+  slice.bytes_per_value = head.bytes_per_value;
+  keep_first_channel(slice, head.channels, file);
   return slice;
 }
 
@@ -203,7 +231,8 @@ std::vector<Page> pages_of(const std::vector<std::string>& files) {
   std::vector<Page> pages;
   for (const std::string& file : files) {
     if (!fs::is_regular_file(file)) {
-      fail(file, "no such file; check its name");
+      fail(file,
+           fs::exists(file) ? "it is a folder, device or pipe; name a file" : "no such file; check its name");
     }
     const std::size_t count = is_tiff(file) ? count_tiff_pages(file) : 1;
     for (std::size_t number = 0; number < count; ++number) {

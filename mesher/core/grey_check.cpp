@@ -1,5 +1,6 @@
 #include "mesher/core/grey_check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -26,13 +27,33 @@ void add_voxel(const LabelImage& image, int i, int j, int k, LabelTexture& sum) 
   sum.single_voxels += alone ? 1 : 0;
 }
 
+/// Some slices tell, so that large images cost no time.
+std::string why_noise(const LabelImage& image) {
+  constexpr int kSlices = 64;
+  if (image.voxels.size() < kManySingleVoxels) {
+    return "";
+  }
+  const int step = std::max(1, image.frame.size[2] / kSlices);
+  const LabelTexture t = texture_of(image, step);
+  const double single = static_cast<double>(t.single_voxels) / static_cast<double>(t.voxels);
+  if (t.voxels == 0 || single <= kMostNoise ||
+      t.single_voxels * static_cast<std::size_t>(step) < kManySingleVoxels) {
+    return "";
+  }
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "it looks like noise: %.0f %% of the labelled voxels stand alone (more than %.0f %%)",
+                100 * single, 100 * kMostNoise);
+  return text;
+}
+
 }  // namespace
 
-LabelTexture texture_of(const LabelImage& image) {
+LabelTexture texture_of(const LabelImage& image, int slice_step) {
   const auto& size = image.frame.size;
   std::size_t voxels = 0, singles = 0, faces = 0, unlike = 0;
 #pragma omp parallel for schedule(static) reduction(+ : voxels, singles, faces, unlike)
-  for (int k = 0; k < size[2]; ++k) {
+  for (int k = 0; k < size[2]; k += slice_step) {
     LabelTexture slice;
     for (int j = 0; j < size[1]; ++j) {
       for (int i = 0; i < size[0]; ++i) {
@@ -49,7 +70,7 @@ LabelTexture texture_of(const LabelImage& image) {
 
 std::string why_grey(const LabelImage& image) {
   if (image.labels.size() <= kManyLabels + 1) {
-    return "";
+    return why_noise(image);
   }
   const LabelTexture t = texture_of(image);
   const double single = static_cast<double>(t.single_voxels) / static_cast<double>(t.voxels);

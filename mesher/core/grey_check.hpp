@@ -18,13 +18,19 @@ struct LabelTexture {
   std::size_t faces = 0;          ///< between labelled voxels
   std::size_t unlike_faces = 0;   ///< of them, between two labels
 };
-LabelTexture texture_of(const LabelImage& image);
+/// Counts every `slice_step`-th slice alone.
+LabelTexture texture_of(const LabelImage& image, int slice_step = 1);
 
 /// More labels than this, and a share of single voxels or of unlike faces above these, mean a grey image.
 inline constexpr std::size_t kManyLabels = 30;
 inline constexpr double kMostSingleVoxels = 0.05, kMostUnlikeFaces = 0.5;
 
-/// Why the image looks grey, with the figures; empty where it does not.
+/// With fewer labels, as many voxels that stand alone and a share above this mean noise: every one of them
+/// costs a hundred elements, so that a file of some kilobytes would take hours.
+inline constexpr std::size_t kManySingleVoxels = 5000;
+inline constexpr double kMostNoise = 0.5;
+
+/// Why the image looks grey or like noise, with the figures; empty where it does not.
 std::string why_grey(const LabelImage& image);
 
 }  // namespace cbc3d

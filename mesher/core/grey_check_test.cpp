@@ -46,5 +46,24 @@ TEST(GreyCheck, AtlasesAreNoneAndNoiseIs) {
   EXPECT_EQ(why_grey(cubes(3, 1)), "");  // 27 labels are few enough to be meant
 }
 
+TEST(GreyCheck, NoiseOfFewLabelsIsNamedWhereItIsLarge) {
+  for (const int labels : {2, 3, 20}) {
+    for (const int size : {10, 40, 100}) {
+      LabelImage image;
+      image.frame.size = {size, size, size};
+      for (int n = 1; n < labels; ++n) {
+        image.labels.push_back(n);
+      }
+      image.voxels.resize(image.frame.voxel_count());
+      for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+        const Index3 at = image.frame.index_of(v);
+        image.voxels.set(v, static_cast<MaterialId>((at[0] + at[1] + at[2]) % labels));
+      }
+      EXPECT_EQ(why_grey(image).find("noise") != std::string::npos, size > 10) << labels << ' ' << size;
+    }
+  }
+  EXPECT_EQ(why_grey(cubes(3, 20)), "");
+}
+
 }  // namespace
 }  // namespace cbc3d

@@ -1,12 +1,16 @@
 #include "mesher/core/image_io.hpp"
 
+#include <fcntl.h>
 #include <itkImageIOFactory.h>
+#include <unistd.h>
 
 #include <algorithm>
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/itk_formats.hpp"
+#include "mesher/formats/read_header.hpp"
+#include "mesher/formats/voxel_data.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -14,15 +18,8 @@ namespace {
 
 using Component = itk::ImageIOBase::IOComponentType;
 
-/// The part of an ITK exception's message that describes the fault, in one line.
-std::string brief(const itk::ExceptionObject& error) {
-  std::string text = error.GetDescription();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  const auto colon = text.rfind("): ");
-  if (colon != std::string::npos) {
-    text.erase(0, colon + 3);
-  }
-  return text.empty() ? "unknown fault" : text;
+[[noreturn]] void fail_to_write(const fs::path& path) {
+  throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
 }
 
 template <typename T>
@@ -37,12 +34,48 @@ std::vector<T> label_values(const LabelImage& image) {
   return values;
 }
 
+/// ITK's writers print their own lines beside the one that we give; they go nowhere as long as this lives.
+class QuietStandardError {
+ public:
+  QuietStandardError() : kept_(::dup(STDERR_FILENO)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere >= 0) {
+      ::dup2(nowhere, STDERR_FILENO);
+      ::close(nowhere);
+    }
+  }
+  ~QuietStandardError() {
+    if (kept_ >= 0) {
+      ::dup2(kept_, STDERR_FILENO);
+      ::close(kept_);
+    }
+  }
+  QuietStandardError(const QuietStandardError&) = delete;
+  QuietStandardError& operator=(const QuietStandardError&) = delete;
+
+ private:
+  int kept_;
+};
+
+/// ITK's writers do not say when a disk is full: what they wrote is read again. Throws JobError.
+void require_whole(const fs::path& written, const fs::path& path) {
+  try {
+    formats::ImageHeader header = formats::read_image_header(written);
+    formats::require_plausible_length(header);
+    std::vector<std::uint8_t> buffer(formats::lead_bytes(header) + formats::voxel_bytes(header));
+    formats::read_voxels(header, buffer);
+  } catch (const formats::FormatError&) {
+    fail_to_write(path);
+  }
+}
+
 void write_values(itk::ImageIOBase& io, Component component, const void* values, const fs::path& path) {
   io.SetComponentType(component);
+  const QuietStandardError quiet;
   try {
     io.Write(values);
-  } catch (const itk::ExceptionObject& error) {
-    throw JobError("cannot write '" + path.string() + "': " + brief(error));
+  } catch (const itk::ExceptionObject&) {
+    fail_to_write(path);
   }
 }
 
@@ -98,6 +131,7 @@ void write_label_image(const LabelImage& image, const fs::path& path) {
     } else {
       write_values(*io, Component::INT, label_values<int>(image).data(), path);
     }
+    require_whole(temporary, path);
   } catch (...) {
     std::error_code ignored;
     fs::remove(temporary, ignored);

@@ -147,7 +147,10 @@ class Classifier {
     const std::string text(std::begin(digits),
                            std::to_chars(std::begin(digits), std::end(digits), value).ptr);
     if constexpr (std::is_floating_point_v<T>) {
-      if (!std::isfinite(value) || value != std::floor(value)) {
+      if (!std::isfinite(value)) {
+        fail("it has the value " + text + ", which is no finite number; set such voxels to the background");
+      }
+      if (value != std::floor(value)) {
         fail("it has the fractional value " + text +
              (std::fabs(value - std::nearbyint(value)) <= kRoundingTolerance
                   ? "; round_values takes what is within 1e-4 of an integer"

@@ -156,8 +156,22 @@ Format format_of(const fs::path& path) {
                    "'; use .vtu, .vtk or .msh");
 }
 
+void write_as(Format format, const Mesh& mesh, const fs::path& path) {
+  switch (format) {
+    case Format::vtu:
+      return write_vtu(mesh, path);
+    case Format::vtk:
+      return write_legacy_vtk(mesh, path);
+    case Format::msh:
+      return write_gmsh(mesh, path);
+  }
+}
+
 void require_readable(const fs::path& path) {
   std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+    throw InputError("cannot read '" + path.string() + "': it is a folder, device or pipe; name a mesh file");
+  }
   if (!fs::is_regular_file(path, error)) {
     throw InputError("cannot read '" + path.string() + "': " +
                      (error && error != std::errc::no_such_file_or_directory
@@ -186,16 +200,10 @@ void require_writable_labels(const std::vector<Label>& labels, const fs::path& p
 void write_mesh(const Mesh& mesh, const fs::path& path) {
   const Format format = format_of(path);
   AtomicFile file(path);
-  switch (format) {
-    case Format::vtu:
-      write_vtu(mesh, file.temporary());
-      break;
-    case Format::vtk:
-      write_legacy_vtk(mesh, file.temporary());
-      break;
-    case Format::msh:
-      write_gmsh(mesh, file.temporary());
-      break;
+  try {
+    write_as(format, mesh, file.temporary());
+  } catch (const JobError&) {  // it names the temporary file
+    throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
   }
   file.commit();
 }

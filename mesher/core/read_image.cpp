@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <new>
 #include <type_traits>
 
@@ -10,6 +11,9 @@
 #include "mesher/core/label_classifier.hpp"
 #include "mesher/core/mapped_voxels.hpp"
 #include "mesher/core/voxel_bytes.hpp"
+#include "mesher/formats/byte_stream.hpp"
+#include "mesher/formats/dicom_data_set.hpp"
+#include "mesher/formats/dicom_segmentation.hpp"
 #include "mesher/formats/read_header.hpp"
 #include "mesher/formats/voxel_data.hpp"
 
@@ -37,6 +41,10 @@ void require_file(const fs::path& path) {
   }
   if (fs::is_directory(path, error)) {
     fail(path, "it is a folder; name an image file");
+  }
+  // A pipe would be waited for without an end, and a device be read without one.
+  if (!fs::is_regular_file(path, error)) {
+    fail(path, "it is a device or a pipe, which cannot be read twice; save the image to a file first");
   }
 }
 
@@ -188,9 +196,27 @@ struct FileImage {
   FileVoxels voxels;
 };
 
+bool is_dicom_file(const fs::path& path) {
+  constexpr std::size_t kHead = 132;
+  return formats::is_dicom(formats::head_of_file(path, formats::Encoding::raw, kHead));
+}
+
+FileImage read_dicom(const fs::path& path, const ReadImageOptions& options) {
+  formats::DicomSegmentation segmentation = formats::read_dicom_segmentation(path);
+  ImageFrame frame = frame_of(segmentation.header);
+  require_usable_frame(frame, subject_of(path), options.accept_shear, &segmentation.header.warnings);
+  const std::size_t bytes = formats::voxel_bytes(segmentation.header);
+  VoxelBytes voxels(0, bytes);
+  std::memcpy(voxels.data(), segmentation.labels.data(), bytes);
+  return {std::move(segmentation.header), frame, std::move(voxels)};
+}
+
 FileImage read_file(const fs::path& path, const ReadImageOptions& options) {
   require_file(path);
   try {
+    if (is_dicom_file(path)) {
+      return read_dicom(path, options);
+    }
     ImageHeader header = formats::read_image_header(path);
     ImageFrame frame = frame_of(header);
     require_usable_frame(frame, subject_of(path), options.accept_shear, &header.warnings);
@@ -239,7 +265,7 @@ GreyImage read_grey_image(const fs::path& path) {
 std::string format_of_image(const fs::path& path) {
   require_file(path);
   try {
-    return formats::read_image_header(path).format;
+    return is_dicom_file(path) ? "DICOM SEG" : formats::read_image_header(path).format;
   } catch (const formats::FormatError& error) {
     fail(path, error.what());
   }

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "mesher/core/one_line.hpp"
+
 namespace cbc3d {
 
 TerminalProgress::TerminalProgress(bool quiet)
@@ -26,10 +28,11 @@ void TerminalProgress::clear_bar() const {
   }
 }
 
-void TerminalProgress::show(std::string_view stage, double fraction) {
+void TerminalProgress::show(std::string_view name, double fraction) {
   if (quiet_) {
     return;
   }
+  const std::string stage = one_line(std::string(name));
   const double share = std::clamp(fraction, 0.0, 1.0);
   const int length = static_cast<int>(stage.size());
   if (!terminal_) {
@@ -52,7 +55,7 @@ void TerminalProgress::line(std::string_view text, bool important) {
   }
   clear_bar();
   bar_shown_ = false;
-  std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
+  std::fprintf(stderr, "%s\n", one_line(std::string(text)).c_str());
 }
 
 void TerminalProgress::done() {

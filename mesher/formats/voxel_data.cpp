@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 std::uint64_t length_of(const DataFile& file) {
   std::error_code error;
   if (!fs::is_regular_file(file.path, error)) {
-    throw FormatError("its voxels lie in '" + file.path.string() + "', which is not there; put it there");
+    throw FormatError(
+        "its voxels lie in '" + file.path.string() + "', which is " +
+        (fs::exists(file.path, error) ? "no file; repair its header" : "not there; put it there"));
   }
   const std::uintmax_t length = fs::file_size(file.path, error);
   if (error) {

@@ -9,9 +9,10 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/mesh_io.hpp"
-#include "mesher/core/terminal_progress.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/core/terminal_progress.hpp"
 #include "metrics/solver/manufactured.hpp"
 #include "metrics/solver/sphere_phantoms.hpp"
 
@@ -172,7 +173,7 @@ void run_problem(const std::string& name, const Options& options, solver::Finite
 }
 
 void write(const Options& options, const nlohmann::json& report) {
-  const std::string text = report.dump(2) + "\n";
+  const std::string text = cbc3d::json_text(report) + "\n";
   if (options.json.empty()) {
     std::cout << text;
   } else {

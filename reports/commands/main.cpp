@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/one_line.hpp"
 #include "mesher/core/runtime.hpp"
 #include "reports/commands/commands.hpp"
 
@@ -31,13 +32,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitSuccess : kExitBadInput;
   } catch (const InputError& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << one_line(error.what()) << '\n';
     return kExitBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "out of memory\n";
     return kExitJobFailed;
   } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << one_line(error.what()) << '\n';
     return kExitJobFailed;
   }
 }

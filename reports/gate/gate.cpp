@@ -6,6 +6,7 @@
 #include <map>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 #include "reports/gate/gate_job.hpp"
 #include "reports/results/format_number.hpp"
 #include "reports/run/provenance.hpp"
@@ -225,12 +226,7 @@ Json read_baseline(const fs::path& file) {
   if (!stream) {
     throw InputError("cannot read the baseline '" + file.string() + "'; write one with --update \"REASON\"");
   }
-  Json baseline;
-  try {
-    baseline = Json::parse(stream);
-  } catch (const Json::parse_error& error) {
-    throw InputError("baseline '" + file.string() + "' is no JSON: " + error.what());
-  }
+  Json baseline = parse_json<Json>(stream, "baseline '" + file.string() + "'");
   if (figure(baseline, {"format"}) != kFormat) {
     fail(file, "format",
          "is " + figure(baseline, {"format"}).dump() + ", not \"" + kFormat +

@@ -248,6 +248,13 @@ TEST(Gate, BadBaselinesAreRefusedByFileAndKey) {
   };
   EXPECT_EQ(error_of(baseline().dump()), "");
   EXPECT_NE(error_of("{").find("is no JSON"), std::string::npos);
+  EXPECT_NE(error_of(std::string(80000, '[')).find("deep, more than"), std::string::npos);
+  const std::string good = baseline().dump();
+  const std::size_t at = good.find("\"relative\":") + std::string("\"relative\":").size();
+  for (const char* number : {"1e999", "-1e999", "NaN", "Infinity"}) {
+    const std::string bad = good.substr(0, at) + number + good.substr(good.find_first_of(",}", at));
+    EXPECT_NE(error_of(bad).find(number), std::string::npos) << error_of(bad);
+  }
   const std::vector<std::pair<std::string, Json>> wrong{{"/format", "x"},
                                                         {"/tolerances", 3},
                                                         {"/tolerances/colour", 3},

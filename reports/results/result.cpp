@@ -11,6 +11,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 #include "metrics/catalog.hpp"
 
 namespace cbc3d::reports {
@@ -93,7 +94,7 @@ void merge_evaluation(Json& result, const nlohmann::json& evaluation) {
 }
 
 void append_result(const std::filesystem::path& file, const Json& result) {
-  const std::string line = result.dump() + "\n";
+  const std::string line = json_text(result, -1) + "\n";
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     throw JobError("cannot write '" + file.string() + "': " + std::strerror(errno));
@@ -115,7 +116,7 @@ void append_result(const std::filesystem::path& file, const Json& result) {
 void replace_results(const std::filesystem::path& file, const std::vector<Json>& results) {
   std::string text;
   for (const Json& result : results) {
-    text += result.dump() + "\n";
+    text += json_text(result, -1) + "\n";
   }
   write_text_file(file, text);
 }
@@ -129,15 +130,15 @@ std::vector<Json> read_results(const std::filesystem::path& file) {
     if (line.empty()) {
       continue;
     }
-    Json result = Json::parse(line, nullptr, false);
+    const std::string subject = "'" + file.string() + "': line " + std::to_string(results.size() + 1);
+    Json result = parse_json<Json>(std::string_view(line), subject);
     if (!result.is_object()) {
-      throw InputError("'" + file.string() + "': line " + std::to_string(results.size() + 1) +
-                       " is no JSON object; remove it");
+      throw InputError(subject + " is no JSON object; remove it");
     }
     for (const char* key : {"case", "mesher"}) {
       if (!result.contains(key) || !result[key].is_string()) {
-        throw InputError("'" + file.string() + "': line " + std::to_string(results.size() + 1) + ": \"" +
-                         key + "\" is missing or no text; remove the line and run its job again");
+        throw InputError(subject + ": \"" + key +
+                         "\" is missing or no text; remove the line and run its job again");
       }
     }
     results.push_back(std::move(result));

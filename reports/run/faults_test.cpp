@@ -1,6 +1,8 @@
 // Twelve planted faults: each must end in the right row or the right message, and the run must go on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cases/core/sha256.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/testing/temporary_folder.hpp"
@@ -134,6 +136,38 @@ TEST_F(Faults, AFullDiskIsAnErrorAndLeavesNoHalfLine) {
   again.emplace_back("--resume");
   EXPECT_EQ(run_child({again, 1, kNoTimeLimit, 0}).exit_code, 0);
   EXPECT_EQ(line_of(out_, "good")["status"], "ok");
+}
+
+TEST_F(Faults, AMesherThatFillsTheDiskLosesItsMeshAndTheRunGoesOn) {
+  const Json file{{"name", "flood"},
+                  {"description", "writes for ever"},
+                  {"licence", "Apache-2.0"},
+                  {"command", {"/bin/sh", "-c", "exec cat /dev/zero > \"$1\"", "{image}", "{mesh}"}},
+                  {"output", "vtu"}};
+  write_text_file(folder_.path() / "flood.json", file.dump());
+  std::vector<std::string> argv{"/bin/sh", "-c", "ulimit -f 200; exec \"$@\"", "sh"};
+  const auto rest = command({folder_.path() / "flood.json", mesher("good", TEST_CHILD, "mesh")}, out_);
+  argv.insert(argv.end(), rest.begin(), rest.end());
+  const ChildResult result = run_child({argv, 1, kNoTimeLimit, 0});
+  ASSERT_EQ(result.exit_code, 0) << result.stderr_tail;
+  EXPECT_EQ(line_of(out_, "flood")["status"], "crashed");
+  EXPECT_TRUE(line_of(out_, "flood")["mesh_file"].is_null());
+  EXPECT_EQ(line_of(out_, "good")["status"], "ok") << line_of(out_, "good")["reason"];
+  for (const auto& entry : fs::recursive_directory_iterator(out_)) {
+    EXPECT_EQ(entry.path().string().find("external_flood-t1-r0.vtu"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(Faults, DeepOrImpossibleJsonIsOneLineThatNamesTheFile) {
+  for (const std::string& text :
+       {std::string(80000, '['), std::string(R"({"name": 1e999})"), std::string("NaN")}) {
+    write_text_file(folder_.path() / "deep.json", text);
+    const ChildResult result = run({folder_.path() / "deep.json"}, out_);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.stderr_tail.find("deep.json' "), std::string::npos) << result.stderr_tail;
+    EXPECT_EQ(std::count(result.stderr_tail.begin(), result.stderr_tail.end(), '\n'), 1)
+        << result.stderr_tail;
+  }
 }
 
 TEST_F(Faults, BadJsonIsOneLineThatNamesTheFile) {

@@ -8,6 +8,7 @@
 #include "cases/core/sha256.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 #include "mesher/core/mesh_io.hpp"
 #include "reports/run/child_process.hpp"
 #include "reports/run/provenance.hpp"
@@ -50,8 +51,7 @@ void set_status(Json& result, const std::string& status, const std::string& reas
 /// The object in a file; empty where there is none or it is broken.
 nlohmann::json read_json(const fs::path& file) {
   std::ifstream stream(file);
-  nlohmann::json content = stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json();
-  return content.is_object() ? content : nlohmann::json::object();
+  return json_object_or_empty<nlohmann::json>(stream);
 }
 
 std::string text_at(const nlohmann::json& object, const char* key) {

@@ -5,6 +5,7 @@
 
 #include "baselines/core/adapter.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 #include "reports/run/child_process.hpp"
 
 namespace cbc3d::reports {
@@ -50,9 +51,8 @@ std::string reason_of(const ChildResult& child, const SolveJob& job) {
 /// Section `solver` of a report; null where there is none.
 nlohmann::json figures_in(const fs::path& file) {
   std::ifstream stream(file);
-  const nlohmann::json report = stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json();
-  return report.is_object() && report.contains("solver") && report["solver"].is_object() ? report["solver"]
-                                                                                         : nlohmann::json();
+  const auto report = json_object_or_empty<nlohmann::json>(stream);
+  return report.contains("solver") && report["solver"].is_object() ? report["solver"] : nlohmann::json();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -23,7 +24,7 @@ Json read_microbenchmarks(const std::vector<std::filesystem::path>& files) {
   Json all{{"benchmarks", Json::array()}};
   for (const std::filesystem::path& file : files) {
     std::ifstream stream(file);
-    const Json content = stream ? Json::parse(stream, nullptr, false) : Json();
+    const Json content = json_object_or_empty<Json>(stream);
     const Json list = figure(content, {"benchmarks"});
     if (!list.is_array()) {
       throw InputError(
