@@ -346,14 +346,12 @@ class Refiner {
   /// Where a label of the repaired mesh has another topology than in the image, voxels are taken as they are
   /// on a finer lattice. Returns how many tets are to be split or labelled anew.
   std::size_t mark_topology_differences() {
-    if (!options_.keep_topology || !betti_of_image_ || !parts_) {
+    if (!options_.keep_topology || !betti_of_image_ || !parts_ ||
+        betti_of_image_->unlike_labels(result_.mesh, points_).empty()) {
       return 0;
     }
     const ImageBetti& of_image = *betti_of_image_;
     const PartRaster& parts = *parts_;
-    if (of_image.unlike_labels(result_.mesh, points_).empty()) {
-      return 0;
-    }
     mark_what_repair_loses(true);
     const std::vector<MisplacedPart> misplaced = parts.misplaced(lattice_, result_.mesh);
     const auto places =
