@@ -208,9 +208,8 @@ class Marcher {
   }
 
   double value_at(int i, int j, int k) {
-    const auto u = static_cast<std::size_t>(i - box_.low[0] + 1),
-               v = static_cast<std::size_t>(j - box_.low[1] + 1);
-    float& held = field(k)[v * width_ + u];
+    const int u = i - box_.low[0] + 1, v = j - box_.low[1] + 1;
+    float& held = field(k)[static_cast<std::size_t>(v) * width_ + static_cast<std::size_t>(u)];
     if (held == 0.0F) {
       held = static_cast<float>(evaluate(i, j, k));
     }
@@ -234,7 +233,8 @@ class Marcher {
 
   static double weight(int offset) {
     static const auto weights = gaussian();
-    return weights[static_cast<std::size_t>(offset + kReach)];
+    const int n = offset + kReach;
+    return weights[static_cast<std::size_t>(n)];
   }
 
   const LabelImage& image_;
