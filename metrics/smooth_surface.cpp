@@ -25,8 +25,9 @@ constexpr std::array<std::array<std::size_t, 2>, 12> kEdges{
 std::array<double, 2 * kReach + 1> gaussian() {
   std::array<double, 2 * kReach + 1> weight{};
   double sum = 0;
-  for (int n = -kReach; n <= kReach; ++n) {
-    sum += weight[static_cast<std::size_t>(n + kReach)] = std::exp(-0.5 * n * n);
+  for (std::size_t n = 0; n < weight.size(); ++n) {
+    const int offset = static_cast<int>(n) - kReach;
+    sum += weight[n] = std::exp(-0.5 * offset * offset);
   }
   for (double& w : weight) {
     w /= sum;
