@@ -113,9 +113,10 @@ SizeDial read_size_dial(const Description& description, const ParameterSpecs& sp
   SizeDial dial;
   dial.parameter = description.text(entry, "parameter", "the key of a parameter");
   const auto is_named = [&](const ParameterSpec& spec) { return spec.key == dial.parameter; };
-  if (std::none_of(specs.begin(), specs.end(), is_named))
+  if (std::none_of(specs.begin(), specs.end(), is_named)) {
     description.fail("size_dial",
                      "names \"" + dial.parameter + "\", which is no parameter; add it to \"parameters\"");
+  }
   for (const auto& [key, field] : {std::pair("exponent", &dial.exponent), std::pair("first", &dial.first),
                                    std::pair("lowest", &dial.lowest), std::pair("highest", &dial.highest)}) {
     if (!entry.contains(key)) continue;
@@ -123,9 +124,10 @@ SizeDial read_size_dial(const Description& description, const ParameterSpecs& sp
     *field = entry[key].get<double>();
   }
   const bool in_order = dial.lowest > 0 && dial.lowest <= dial.first && dial.first <= dial.highest;
-  if (!in_order || dial.exponent == 0)
+  if (!in_order || dial.exponent == 0) {
     description.fail("size_dial", "is " + entry.dump() +
                                       "; give 0 < lowest <= first <= highest, and an exponent other than 0");
+  }
   return dial;
 }
 
@@ -139,10 +141,11 @@ void check_placeholders(const Description& description, const Texts& command, co
   std::set<std::string> used;
   for (const std::string& argument : command) {
     expand(argument, [&](const std::string& name) {
-      if (!known.contains(name))
+      if (!known.contains(name)) {
         description.fail("command", "names {" + name +
                                         "}, which is no parameter; add it to \"parameters\" or " +
                                         "write {{ for a brace");
+      }
       used.insert(name);
       return std::string();
     });
@@ -160,10 +163,11 @@ std::string resolve_program(const std::string& program, const fs::path& folder) 
 
 Availability availability_of(const std::string& program, const fs::path& file) {
   const fs::path found = find_program(program);
-  if (found.empty())
+  if (found.empty()) {
     return {false, "'" + program + "' of '" + file.filename().string() + "' is " +
                        (program.find('/') == std::string::npos ? "nowhere in PATH" : "no file") +
                        "; install it or correct \"command\""};
+  }
   if (::access(found.c_str(), X_OK) != 0)
     return {false, "'" + found.string() + "' may not be executed; chmod +x it"};
   return {true, ""};

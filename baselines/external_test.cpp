@@ -71,11 +71,10 @@ TEST_F(External, ASizeDialIsReadAndChecked) {
   EXPECT_FALSE(size_dial_of(load_external_mesher(write(good_.dump())), ""));
   good_["size_dial"] = {
       {"parameter", "size"}, {"exponent", -3}, {"first", 2}, {"lowest", 0.1}, {"highest", 50}};
-  const auto dial = size_dial_of(load_external_mesher(write(good_.dump())), "");
-  ASSERT_TRUE(dial);
-  EXPECT_EQ(dial->parameter, "size");
-  EXPECT_EQ(dial->exponent, -3);
-  EXPECT_EQ(dial->highest, 50);
+  const SizeDial dial = size_dial_of(load_external_mesher(write(good_.dump())), "").value_or(SizeDial{});
+  EXPECT_EQ(dial.parameter, "size");
+  EXPECT_EQ(dial.exponent, -3);
+  EXPECT_EQ(dial.highest, 50);
   for (const auto& [key, value, named] :
        {std::tuple("parameter", json("sise"), "is no parameter"),
         std::tuple("exponent", json(0), "other than 0"),

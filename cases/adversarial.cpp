@@ -76,8 +76,8 @@ LabelAt ball(std::int32_t lower, std::int32_t upper) {
 /// Voxel by voxel `labels` at random, each with this share; the rest background.
 LabelAt speckle(std::uint64_t seed, double share, int labels) {
   return [=](int i, int j, int k) {
-    const auto at = static_cast<std::uint64_t>((k * 1000 + j) * 1000 + i);
-    const double draw = uniform_at(seed, at);
+    const int at = (k * 1000 + j) * 1000 + i;
+    const double draw = uniform_at(seed, static_cast<std::uint64_t>(at));
     return draw < share * labels ? 1 + static_cast<int>(draw / share) : 0;
   };
 }

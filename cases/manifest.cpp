@@ -186,10 +186,10 @@ json parse_file(const fs::path& file) {
 void require_cases_before(const std::vector<Case>& cases, const std::vector<fs::path>& files,
                           const std::set<std::string>& names) {
   for (std::size_t n = 0; n < cases.size(); ++n) {
-    if (cases[n].deformation_pattern && !names.contains(cases[n].deformation_pattern->before)) {
-      throw InputError("'" + files[n].string() + "': \"deformation_pattern.before\" is \"" +
-                       cases[n].deformation_pattern->before + "\", which no manifest has as its name; see " +
-                       "cases/README.md");
+    const auto& pattern = cases[n].deformation_pattern;
+    if (pattern && !names.contains(pattern->before)) {
+      throw InputError("'" + files[n].string() + "': \"deformation_pattern.before\" is \"" + pattern->before +
+                       "\", which no manifest has as its name; see " + "cases/README.md");
     }
   }
 }

@@ -70,17 +70,17 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
   EXPECT_EQ(cases[1].parameter_sets.at("fine").at("cgal").at("cell-size"), "1");
   EXPECT_EQ(cases[1].paper.at("note"), "none");
-  ASSERT_TRUE(cases[1].deformation_pattern);
-  EXPECT_EQ(cases[1].deformation_pattern->pattern, "face");
-  EXPECT_EQ(cases[1].deformation_pattern->image, "as it is");
-  EXPECT_EQ(cases[1].deformation_pattern->before, "one");
-  ASSERT_TRUE(cases[0].phantom);
+  const DeformationPattern pattern = cases[1].deformation_pattern.value_or(DeformationPattern{});
+  EXPECT_EQ(pattern.pattern, "face");
+  EXPECT_EQ(pattern.image, "as it is");
+  EXPECT_EQ(pattern.before, "one");
   EXPECT_FALSE(cases[0].image_file);
-  EXPECT_EQ(cases[0].phantom->name, "organs");
-  EXPECT_EQ(cases[0].phantom->size, (Index3{16, 17, 18}));
-  EXPECT_EQ(cases[0].phantom->spacing_mm, (Vec3{1, 1.5, 2}));
-  EXPECT_EQ(cases[0].phantom->seed, 3U);
-  EXPECT_EQ(cases[0].phantom->sha256, std::string(64, 'b'));
+  const Phantom phantom = cases[0].phantom.value_or(Phantom{});
+  EXPECT_EQ(phantom.name, "organs");
+  EXPECT_EQ(phantom.size, (Index3{16, 17, 18}));
+  EXPECT_EQ(phantom.spacing_mm, (Vec3{1, 1.5, 2}));
+  EXPECT_EQ(phantom.seed, 3U);
+  EXPECT_EQ(phantom.sha256, std::string(64, 'b'));
 }
 
 struct BadKey {

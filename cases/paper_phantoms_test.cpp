@@ -21,7 +21,7 @@ using cbc3d::testing::TemporaryFolder;
 Phantom quarter(const std::string& name) {
   for (const Case& one : load_cases(CBC3D_MANIFESTS)) {
     if (one.name == name + "-quarter") {
-      return *one.phantom;
+      return one.phantom.value();
     }
   }
   throw InputError("no case " + name + "-quarter");

@@ -20,10 +20,10 @@ std::string quoted_list(const std::vector<fs::path>& folders) {
   return list.empty() ? "none given" : list;
 }
 
-ResolvedImage find_file(const Case& which, const std::vector<fs::path>& data_dirs) {
+ResolvedImage find_file(const std::string& name, const Case& which, const std::vector<fs::path>& data_dirs) {
   std::string mismatch;
   for (const fs::path& folder : data_dirs) {
-    const fs::path path = folder / *which.image_file;
+    const fs::path path = folder / name;
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
       continue;
@@ -39,8 +39,7 @@ ResolvedImage find_file(const Case& which, const std::vector<fs::path>& data_dir
   if (!mismatch.empty()) {
     return {{}, mismatch + remedy};
   }
-  return {{},
-          "image '" + *which.image_file + "' is in no data folder (" + quoted_list(data_dirs) + ")" + remedy};
+  return {{}, "image '" + name + "' is in no data folder (" + quoted_list(data_dirs) + ")" + remedy};
 }
 
 fs::path cached_name(const Phantom& phantom, const PhantomKind& kind) {
@@ -112,7 +111,8 @@ ResolvedImage derive(const Case& which, const ResolvedImage& source, const fs::p
 
 ResolvedImage resolve_image(const Case& which, const std::vector<fs::path>& data_dirs,
                             const fs::path& cache_dir) {
-  ResolvedImage source = which.phantom ? generate(*which.phantom, cache_dir) : find_file(which, data_dirs);
+  ResolvedImage source = which.phantom ? generate(*which.phantom, cache_dir)
+                                       : find_file(which.image_file.value_or(""), which, data_dirs);
   const bool as_it_is = !which.derive.any() || !source.skipped_reason.empty();
   return as_it_is ? source : derive(which, source, cache_dir);
 }

@@ -57,8 +57,9 @@ std::vector<double> verdict(vtkUnstructuredGrid* grid, const SetMeasure& set_mea
   set_measure(*quality);
   quality->Update();
   vtkDataArray* values = quality->GetOutput()->GetCellData()->GetArray("Quality");
-  std::vector<double> result;
-  for (vtkIdType c = 0; c < values->GetNumberOfTuples(); ++c) result.push_back(values->GetComponent(c, 0));
+  std::vector<double> result(static_cast<std::size_t>(values->GetNumberOfTuples()));
+  for (std::size_t c = 0; c < result.size(); ++c)
+    result[c] = values->GetComponent(static_cast<vtkIdType>(c), 0);
   return result;
 }
 
@@ -131,8 +132,8 @@ TEST(VtkHausdorff, PointSetsOfThePapersProtocol) {
   filter->SetInputData(1, cloud(vertices));
   filter->Update();
   const auto ours = point_set_distance(centres, vertices);
-  EXPECT_NEAR(ours->image_to_mesh_mm, filter->GetRelativeDistance()[0], 1e-12);
-  EXPECT_NEAR(ours->mesh_to_image_mm, filter->GetRelativeDistance()[1], 1e-12);
+  EXPECT_NEAR(ours.value().image_to_mesh_mm, filter->GetRelativeDistance()[0], 1e-12);
+  EXPECT_NEAR(ours.value().mesh_to_image_mm, filter->GetRelativeDistance()[1], 1e-12);
   const auto judged = test::judge(mesh, image)["fidelity"];
   EXPECT_NEAR(judged["hausdorff_mm"].get<double>(), filter->GetHausdorffDistance(), 1e-12);
 }

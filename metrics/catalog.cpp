@@ -40,8 +40,8 @@ std::optional<double> element_count(const Figures& figures) {
   std::optional<double> sum;
   for (const MetricId kind : {metric_id("counts.tets"), metric_id("counts.pyramids"),
                               metric_id("counts.wedges"), metric_id("counts.hexes")}) {
-    if (figures[kind]) {
-      sum = sum.value_or(0) + *figures[kind];
+    if (const auto& count = figures[kind]) {
+      sum = sum.value_or(0) + *count;
     }
   }
   return sum;

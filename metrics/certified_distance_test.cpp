@@ -13,6 +13,7 @@ namespace {
 
 SearchableSurface<Triangle> surface_of(const std::vector<Triangle>& triangles) {
   std::vector<SmoothTriangle> list;
+  list.reserve(triangles.size());
   for (const Triangle& t : triangles) list.push_back({t, kBackground, {}});
   return searchable_triangles(list);
 }
@@ -20,7 +21,7 @@ SearchableSurface<Triangle> surface_of(const std::vector<Triangle>& triangles) {
 DistanceBounds bounds_of(const std::vector<Triangle>& from, const std::vector<Triangle>& to,
                          const CertifyOptions& options = {1e-4, 20'000'000}) {
   const auto found = surface_distance(surface_of(from), surface_of(to), options);
-  return *found->image_to_mesh.bounds;
+  return found.value().image_to_mesh.bounds.value();
 }
 
 void expect_around(const DistanceBounds& bounds, double truth, double tolerance = 1e-4) {
@@ -165,10 +166,10 @@ TEST(SurfaceDistance, WeightsAreAreas) {
   raised.insert(raised.end(), step.begin(), step.end());
   const auto found =
       surface_distance(surface_of(raised), surface_of(rectangle({-5, -5, 0}, {40, 0, 0}, {0, 40, 0})), {});
-  EXPECT_NEAR(found->image_to_mesh.mean_mm, (10 * 1 + 1 * 3) / 11.0, 1e-12);
-  EXPECT_NEAR(found->image_to_mesh.rms_mm, std::sqrt((10 * 1 + 1 * 9) / 11.0), 1e-12);
-  EXPECT_NEAR(found->image_to_mesh.p95_mm, 3, 1e-12);  // 1/11 of the area is that far
-  EXPECT_NEAR(found->image_to_mesh.area_mm2, 11, 1e-12);
+  EXPECT_NEAR(found.value().image_to_mesh.mean_mm, (10 * 1 + 1 * 3) / 11.0, 1e-12);
+  EXPECT_NEAR(found.value().image_to_mesh.rms_mm, std::sqrt((10 * 1 + 1 * 9) / 11.0), 1e-12);
+  EXPECT_NEAR(found.value().image_to_mesh.p95_mm, 3, 1e-12);  // 1/11 of the area is that far
+  EXPECT_NEAR(found.value().image_to_mesh.area_mm2, 11, 1e-12);
 }
 
 }  // namespace

@@ -172,14 +172,13 @@ TEST(Quality, NoTetNoDihedral) {
 }
 
 TEST(Histogram, PercentilesAreNearestRanks) {
-  std::vector<float> values;
-  for (int n = 0; n < 200; ++n)
-    values.push_back(static_cast<float>((n * 77) % 200 + 1));  // 1 to 200, shuffled
+  std::vector<float> values(200);  // 1 to 200, shuffled
+  for (std::size_t n = 0; n < values.size(); ++n) values[n] = static_cast<float>((n * 77) % 200 + 1);
   const auto found = percentiles_of(values);
   ASSERT_TRUE(found);
-  for (std::size_t p = 0; p < kPercentiles.size(); ++p) EXPECT_EQ((*found)[p], 2.0 * kPercentiles[p]);
+  for (std::size_t p = 0; p < kPercentiles.size(); ++p) EXPECT_EQ(found.value()[p], 2.0 * kPercentiles[p]);
   std::vector<float> one{3};
-  EXPECT_EQ(percentiles_of(one)->front(), 3.0);
+  EXPECT_EQ(percentiles_of(one).value().front(), 3.0);
   std::vector<float> none;
   EXPECT_FALSE(percentiles_of(none));
 }

@@ -139,10 +139,10 @@ TEST(ElementShape, DistributionsAreThoseOfTheSortedValues) {
     const auto below = std::count_if(values.begin(), values.end(), [](double v) { return v < .3; });
     EXPECT_NEAR(found.below_0_3_percent, 100.0 * below / values.size(), 1e-12);
   };
-  check(ratios[0], *shape.per_label[0].mean_ratio);
-  check(ratios[1], *shape.per_label[1].mean_ratio);
+  check(ratios[0], shape.per_label[0].mean_ratio.value());
+  check(ratios[1], shape.per_label[1].mean_ratio.value());
   ratios[0].insert(ratios[0].end(), ratios[1].begin(), ratios[1].end());
-  check(ratios[0], *shape.all.mean_ratio);
+  check(ratios[0], shape.all.mean_ratio.value());
 }
 
 TEST(ElementShape, EdgeRatiosOfAThousandTets) {

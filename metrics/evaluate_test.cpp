@@ -22,9 +22,10 @@ void expect_near(const json& a, const json& b, double tolerance, const std::stri
     EXPECT_NEAR(a.get<double>(), b.get<double>(), upper ? kRelativeTolerance * .8 : tolerance) << where;
   } else if (a.is_structured()) {
     ASSERT_EQ(a.size(), b.size()) << where;
-    for (const auto& [key, value] : a.items())
+    for (const auto& [key, value] : a.items()) {
       expect_near(value, a.is_object() ? b.at(key) : b.at(std::stoul(key)), tolerance,
                   std::string(where).append("/").append(key));
+    }
   } else {
     EXPECT_EQ(a, b) << where;
   }

@@ -136,7 +136,7 @@ class FidelityMeasurer {
     row.smooth_smoothness = smoothness(numbered_facets(parts.smooth));
     row.surface = measure_surface(parts);
     measure_interfaces(m, parts, row.surface, result);
-    result.per_label.push_back(std::move(row));
+    result.per_label.push_back(row);
   }
 
   // Centres of the voxels that show a face to background, each once.
@@ -195,7 +195,7 @@ class FidelityMeasurer {
       if (in_table) {
         const auto [a, b] = std::minmax(image_.labels[other], image_.labels[m]);
         result.per_interface.push_back(
-            {other == kBackground ? 0 : a, other == kBackground ? image_.labels[m] : b, std::move(surface)});
+            {other == kBackground ? 0 : a, other == kBackground ? image_.labels[m] : b, surface});
       }
     }
   }

@@ -39,9 +39,9 @@ TEST(PointSetDistance, AgreesWithBruteForce) {
   const auto a = random_points(700, 1, 10), b = random_points(300, 2, 11);
   const auto found = point_set_distance(a, b);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->image_to_mesh_mm, brute_directed(a, b), 1e-12);
-  EXPECT_NEAR(found->mesh_to_image_mm, brute_directed(b, a), 1e-12);
-  EXPECT_NE(found->image_to_mesh_mm, found->mesh_to_image_mm);
+  EXPECT_NEAR(found.value().image_to_mesh_mm, brute_directed(a, b), 1e-12);
+  EXPECT_NEAR(found.value().mesh_to_image_mm, brute_directed(b, a), 1e-12);
+  EXPECT_NE(found.value().image_to_mesh_mm, found.value().mesh_to_image_mm);
   EXPECT_FALSE(point_set_distance({}, b));
   EXPECT_FALSE(point_set_distance(a, {}));
 }

@@ -114,9 +114,9 @@ void find_valences(const MeshView& view, Gradation& result) {
       ratios.push_back(figures.edge_ratio[v]);
     }
   }
-  const auto ratio = order_statistics(std::span(ratios), std::array<std::size_t, 2>{990, 1000});
-  result.vertex_edge_ratio_p99 = (*ratio)[0];
-  result.vertex_edge_ratio_max = (*ratio)[1];
+  const auto ratio = order_statistics(std::span(ratios), std::array<std::size_t, 2>{990, 1000}).value();
+  result.vertex_edge_ratio_p99 = ratio[0];
+  result.vertex_edge_ratio_max = ratio[1];
 }
 
 std::int64_t count_on_surface(const Surface& surface, std::size_t points, bool outer_alone) {

@@ -283,9 +283,10 @@ TEST(SelfIntersection, IsToldWithItsPlace) {
   EXPECT_EQ(first["labels"][1], nlohmann::json::array({7, nullptr}));
   EXPECT_NEAR(first["at_mm"][0].get<double>(), 1.5, .2);
   bool reported = false;
-  for (const nlohmann::json& fault : result["faults"])
-    reported =
-        reported || fault.get<std::string>().find("pairs of surface facets that cut") != std::string::npos;
+  for (const nlohmann::json& fault : result["faults"]) {
+    const auto text = fault.get<std::string>();
+    reported = reported || text.find("pairs of surface facets that cut") != std::string::npos;
+  }
   EXPECT_TRUE(reported) << result["faults"];
 }
 

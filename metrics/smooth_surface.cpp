@@ -25,8 +25,9 @@ constexpr std::array<std::array<std::size_t, 2>, 12> kEdges{
 std::array<double, 2 * kReach + 1> gaussian() {
   std::array<double, 2 * kReach + 1> weight{};
   double sum = 0;
-  for (int n = -kReach; n <= kReach; ++n) {
-    sum += weight[static_cast<std::size_t>(n + kReach)] = std::exp(-0.5 * n * n);
+  for (std::size_t n = 0; n < weight.size(); ++n) {
+    const int offset = static_cast<int>(n) - kReach;
+    sum += weight[n] = std::exp(-0.5 * offset * offset);
   }
   for (double& w : weight) {
     w /= sum;
@@ -208,9 +209,8 @@ class Marcher {
   }
 
   double value_at(int i, int j, int k) {
-    const auto u = static_cast<std::size_t>(i - box_.low[0] + 1),
-               v = static_cast<std::size_t>(j - box_.low[1] + 1);
-    float& held = field(k)[v * width_ + u];
+    const int u = i - box_.low[0] + 1, v = j - box_.low[1] + 1;
+    float& held = field(k)[static_cast<std::size_t>(v) * width_ + static_cast<std::size_t>(u)];
     if (held == 0.0F) {
       held = static_cast<float>(evaluate(i, j, k));
     }
@@ -234,7 +234,8 @@ class Marcher {
 
   static double weight(int offset) {
     static const auto weights = gaussian();
-    return weights[static_cast<std::size_t>(offset + kReach)];
+    const int n = offset + kReach;
+    return weights[static_cast<std::size_t>(n)];
   }
 
   const LabelImage& image_;

@@ -69,7 +69,7 @@ TEST(SmoothSurface, NothingIsLostHoweverThin) {
   const LabelImage wire =
       image_of(12, 1, [](const Vec3& p) { return p.x == 5 && p.y == 5 && p.z > 1 && p.z < 10; });
   const auto found = smooth_surface(wire, 1);
-  EXPECT_EQ(smoothness(numbered_facets(found))->edges,
+  EXPECT_EQ(smoothness(numbered_facets(found)).value().edges,
             static_cast<std::int64_t>(found.size() * 3 / 2));  // closed
   double low = 99, high = -99;
   for (const auto& t : found) {
@@ -98,14 +98,15 @@ TEST(SmoothSurface, OneSurfaceBetweenTwoLabels) {
     if (t.other == 1 && far_from_background(t)) from_two.push_back(t);
   ASSERT_GT(from_one.size(), 40U);
   const auto found = surface_distance(searchable_triangles(from_one), searchable_triangles(from_two), {});
-  EXPECT_LT(found->mean_mm(), .02);
-  EXPECT_LT(found->hd95_mm(), .05);
+  EXPECT_LT(found.value().mean_mm(), .02);
+  EXPECT_LT(found.value().hd95_mm(), .05);
 }
 
 TEST(SmoothSurface, FillsTheImage) {
   const LabelImage full = image_of(5, 1, [](const Vec3&) { return 1; });
   const auto found = smooth_surface(full, 1);
-  EXPECT_EQ(smoothness(numbered_facets(found))->edges, static_cast<std::int64_t>(found.size() * 3 / 2));
+  EXPECT_EQ(smoothness(numbered_facets(found)).value().edges,
+            static_cast<std::int64_t>(found.size() * 3 / 2));
   EXPECT_TRUE(smooth_surface(full, 0).empty());
   EXPECT_TRUE(smooth_surface(full, 2).empty());
 }
@@ -118,6 +119,7 @@ std::vector<NumberedFacet> numbered(const std::vector<Triangle>& triangles) {
         .first->second;
   };
   std::vector<NumberedFacet> facets;
+  facets.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles)
     facets.push_back({{number(a), number(b), number(c), NumberedFacet::kNoCorner}, {a, b, c, c}});
   return facets;
@@ -127,9 +129,9 @@ TEST(Smoothness, SphereBendsByItsRadiusAtAnyMeshSize) {
   double before = 1e9;
   for (const int n : {8, 16, 32}) {
     const auto found = smoothness(numbered(test::sphere_triangles(5, n)));
-    EXPECT_NEAR(found->bending_per_mm, 1.0 / 5, .03 / 5 * 32 / n);
-    EXPECT_LT(found->mean_angle_deg, .7 * before);  // halves with the facets
-    before = found->mean_angle_deg;
+    EXPECT_NEAR(found.value().bending_per_mm, 1.0 / 5, .03 / 5 * 32 / n);
+    EXPECT_LT(found.value().mean_angle_deg, .7 * before);  // halves with the facets
+    before = found.value().mean_angle_deg;
   }
 }
 

@@ -102,18 +102,19 @@ TEST(SurfaceShape, Icosahedron) {
   EXPECT_EQ(found.outer.edges, 30);
   for (const auto& figure :
        {found.outer.angle_rms_deg, found.outer.angle_p95_deg, found.outer.angle_max_deg}) {
-    EXPECT_NEAR(*figure, angle, 1e-9);
+    EXPECT_NEAR(figure.value(), angle, 1e-9);
   }
   EXPECT_EQ(found.outer.edges_over, (std::array<std::int64_t, 3>{0, 0, 0}));
   EXPECT_EQ(found.outer.off_corner, 0);
-  EXPECT_NEAR(*found.outer.mean_ratio_min, 1, 1e-12);
+  EXPECT_NEAR(found.outer.mean_ratio_min.value(), 1, 1e-12);
   EXPECT_TRUE(found.places.empty());
 }
 
 TEST(SurfaceShape, AnglesOfASphereFallLikeTheFacetSize) {
-  double coarser = *shapes_of(mesh_of(sphere(1), kRadius, kCentre), ball_image()).outer.angle_rms_deg;
+  double coarser = shapes_of(mesh_of(sphere(1), kRadius, kCentre), ball_image()).outer.angle_rms_deg.value();
   for (int n = 2; n < 5; ++n) {
-    const double rms = *shapes_of(mesh_of(sphere(n), kRadius, kCentre), ball_image()).outer.angle_rms_deg;
+    const double rms =
+        shapes_of(mesh_of(sphere(n), kRadius, kCentre), ball_image()).outer.angle_rms_deg.value();
     EXPECT_NEAR(coarser / rms, 2, .06);
     coarser = rms;
   }
@@ -126,8 +127,8 @@ TEST(SurfaceShape, CubeHasEdgesOfExactly90Degrees) {
   EXPECT_EQ(found.outer.facets, 6 * 9 * 2);
   EXPECT_EQ(found.outer.edges, found.outer.facets * 3 / 2);
   EXPECT_EQ(found.outer.edges_over, (std::array<std::int64_t, 3>{12 * 3, 0, 0}));
-  EXPECT_NEAR(*found.outer.angle_rms_deg, 90 * std::sqrt(36.0 / 162), 1e-9);
-  EXPECT_NEAR(*found.outer.mean_ratio_median, std::sqrt(3.0) / 2, 1e-12);
+  EXPECT_NEAR(found.outer.angle_rms_deg.value(), 90 * std::sqrt(36.0 / 162), 1e-9);
+  EXPECT_NEAR(found.outer.mean_ratio_median.value(), std::sqrt(3.0) / 2, 1e-12);
   EXPECT_EQ(found.outer.off_normal, 0);
   EXPECT_TRUE(found.places.empty());
 }
@@ -187,7 +188,7 @@ TEST(SurfaceShape, SlabRimIsOffAndOver90) {
   LabelImage plate = test::empty_image({41, 41, 41}, {1, 1, 1}, {0, 1});
   test::fill_box(plate, {10, 10, 20}, {30, 30, 20}, 1);
   const SurfaceShapes found = shapes_of(mesh_of(lens, 10, kCentre), plate);
-  EXPECT_NEAR(*found.outer.angle_max_deg, 180 - 2 * slope, 1e-9);
+  EXPECT_NEAR(found.outer.angle_max_deg.value(), 180 - 2 * slope, 1e-9);
   EXPECT_EQ(found.outer.edges_over, (std::array<std::int64_t, 3>{6, 6, 6}));
   ASSERT_EQ(found.places.size(), 1U);  // the whole rim hangs together
   EXPECT_EQ(found.places[0].kind, PlaceKind::kThinLabel);
@@ -240,9 +241,9 @@ TEST(SurfaceShape, QuadFacets) {
   const SurfaceShapes found = shapes_of(mesh, test::two_boxes());
   EXPECT_EQ(found.outer.facets, 6);
   EXPECT_EQ(found.outer.edges, 12);
-  EXPECT_NEAR(*found.outer.angle_rms_deg, 90, 1e-9);
+  EXPECT_NEAR(found.outer.angle_rms_deg.value(), 90, 1e-9);
   EXPECT_EQ(found.outer.edges_over, (std::array<std::int64_t, 3>{12, 0, 0}));
-  EXPECT_NEAR(*found.outer.mean_ratio_min, 2 * 2 / 5.0, 1e-12);
+  EXPECT_NEAR(found.outer.mean_ratio_min.value(), 2 * 2 / 5.0, 1e-12);
 }
 
 TEST(SurfaceShape, InterfacesBelongToBothLabelsAndNotToTheOuterSurface) {

@@ -92,7 +92,7 @@ TEST(ThinImages, HolesInTheWallsOfABox) {
                                   {8, 14, 4}, {14, 9, 4},  {9, 9, 19},  {14, 14, 19}};
   const LabelImage image = thin_box();
   const TopologyDifference found = difference_of(without(image, holes), image);
-  EXPECT_EQ(found.per_label[0].difference()->b, (std::array<std::int64_t, 3>{0, 11, -1}));
+  EXPECT_EQ(found.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{0, 11, -1}));
   EXPECT_EQ(found.total, std::optional<std::int64_t>(12));
   const std::vector<Vec3> tunnels = places_of(found, Kind::kTunnelAdded);
   EXPECT_EQ(tunnels.size(), 11U);
@@ -109,7 +109,7 @@ TEST(ThinImages, CutsThroughAStrand) {
   const std::vector<Index3> cuts{{9, 4, 4}, {16, 9, 4}, {16, 15, 10}};
   const LabelImage image = strand();
   const TopologyDifference found = difference_of(without(image, cuts), image);
-  EXPECT_EQ(found.per_label[0].difference()->b, (std::array<std::int64_t, 3>{3, 0, 0}));
+  EXPECT_EQ(found.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{3, 0, 0}));
   // One of the four parts stays, the others are split off: each has a place within it.
   EXPECT_EQ(places_of(found, Kind::kPartSplit).size(), 3U);
   EXPECT_EQ(found.places.size(), 3U);
@@ -122,7 +122,7 @@ TEST(ThinImages, HolesInAPlate) {
   }
   const LabelImage image = plate();
   const TopologyDifference found = difference_of(without(image, holes), image);
-  EXPECT_EQ(found.per_label[0].difference()->b, (std::array<std::int64_t, 3>{0, 121, 0}));
+  EXPECT_EQ(found.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{0, 121, 0}));
   const std::vector<Vec3> tunnels = places_of(found, Kind::kTunnelAdded);
   EXPECT_EQ(tunnels.size(), holes.size());
   expect_each_at_one(tunnels, image, holes);

@@ -66,14 +66,14 @@ TEST(TopologyDifference, NoneOfTheVoxelsThemselves) {
 TEST(TopologyDifference, PlantedTunnel) {
   const TopologyDifference found = difference_of(without(kPlate, {4, 6, 5}), kPlate);
   EXPECT_EQ(found.total, std::optional<std::int64_t>(1));
-  EXPECT_EQ(found.per_label[0].difference()->b, (std::array<std::int64_t, 3>{0, 1, 0}));
+  EXPECT_EQ(found.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{0, 1, 0}));
   expect_one_place(found, Kind::kTunnelAdded, kPlate, {4, 6, 5});
 }
 
 TEST(TopologyDifference, FilledTunnel) {
   const LabelImage ring = without(kPlate, {4, 6, 5});
   const TopologyDifference found = difference_of(kPlate, ring);
-  EXPECT_EQ(found.per_label[0].difference()->b, (std::array<std::int64_t, 3>{0, -1, 0}));
+  EXPECT_EQ(found.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{0, -1, 0}));
   expect_one_place(found, Kind::kTunnelLost, kPlate, {4, 6, 5});
 }
 
@@ -91,7 +91,7 @@ TEST(TopologyDifference, PlantedAndLostPart) {
   const LabelImage both = with(kBlock, {11, 10, 9});
   expect_one_place(difference_of(both, kBlock), Kind::kPartAdded, kBlock, {11, 10, 9});
   const TopologyDifference found = difference_of(kBlock, both);
-  EXPECT_EQ(found.per_label[0].difference()->b, (std::array<std::int64_t, 3>{-1, 0, 0}));
+  EXPECT_EQ(found.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{-1, 0, 0}));
   expect_one_place(found, Kind::kPartLost, kBlock, {11, 10, 9});
 }
 
@@ -107,7 +107,7 @@ TEST(TopologyDifference, SplitAndJoinedParts) {
 TEST(TopologyDifference, PlantedAndLostCavity) {
   const LabelImage hollow = without(kBlock, {4, 5, 6});
   const TopologyDifference added = difference_of(hollow, kBlock);
-  EXPECT_EQ(added.per_label[0].difference()->b, (std::array<std::int64_t, 3>{0, 0, 1}));
+  EXPECT_EQ(added.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{0, 0, 1}));
   expect_one_place(added, Kind::kCavityAdded, kBlock, {4, 5, 6});
   expect_one_place(difference_of(kBlock, hollow), Kind::kCavityLost, kBlock, {4, 5, 6});
 }
@@ -129,7 +129,7 @@ TEST(TopologyDifference, ContactAtACornerMakesTheLabelOpen) {
   const LabelImage image = image_with({{{2, 2, 2}, {4, 4, 4}}, {{5, 5, 5}, {6, 6, 6}}});
   const TopologyDifference found = difference_of(image, image);
   EXPECT_TRUE(found.per_label[0].open);
-  EXPECT_EQ(found.per_label[0].difference()->b, (std::array<std::int64_t, 3>{-1, 0, 0}));
+  EXPECT_EQ(found.per_label[0].difference().value().b, (std::array<std::int64_t, 3>{-1, 0, 0}));
   ASSERT_EQ(found.places.size(), 1U);
   EXPECT_EQ(found.places[0].kind, Kind::kPartsJoined);
   // Which of the two holds does not depend on the mesh: this one keeps them apart.
@@ -184,7 +184,7 @@ TEST(TopologyDifference, RandomImagesEachTunnelOfOneVoxelIsFound) {
       meshed = without(meshed, {3 + static_cast<int>(random() % 5), 3 + static_cast<int>(random() % 5), 5});
     }
     const TopologyDifference found = difference_of(meshed, kPlate);
-    const Betti difference = *found.per_label[0].difference();
+    const Betti difference = found.per_label[0].difference().value();
     EXPECT_EQ(difference.b[0], 0);
     EXPECT_EQ(static_cast<std::int64_t>(found.places.size()), difference.b[1]);
   }

@@ -303,7 +303,7 @@ class PlaceFinder {
       --box.low[axis];
       ++box.high[axis];
     }
-    return {image_, {*label_.material, complement, complement == label_.open}, box};
+    return {image_, {label_.material.value(), complement, complement == label_.open}, box};
   }
 
   const MeshView& view_;
@@ -338,7 +338,7 @@ void PlaceFinder::find_parts(const std::vector<std::uint32_t>& cells) {
       return in_image->components()[a].voxels > in_image->components()[b].voxels;
     });
     for (std::size_t n = 1; n < under.size(); ++n) {
-      add(TopologyPlaceKind::kPartsJoined, in_image->components()[under[n]].place);
+      add(TopologyPlaceKind::kPartsJoined, in_image.value().components()[under[n]].place);
     }
     if (under.size() == 1 && is_met[under[0]]) {
       add(TopologyPlaceKind::kPartSplit, image_.frame.to_physical(part.place_mm));
@@ -349,7 +349,7 @@ void PlaceFinder::find_parts(const std::vector<std::uint32_t>& cells) {
   }
   for (std::size_t c = 0; c < is_met.size(); ++c) {
     if (!is_met[c]) {
-      add(TopologyPlaceKind::kPartLost, in_image->components()[c].place);
+      add(TopologyPlaceKind::kPartLost, in_image.value().components()[c].place);
     }
   }
 }
@@ -373,7 +373,7 @@ void PlaceFinder::find_cavities() {
     }
   }
   for (std::size_t c = 0; c < is_met.size(); ++c) {
-    const VoxelComponent& component = complement->components()[c];
+    const VoxelComponent& component = complement.value().components()[c];
     if (!is_met[c] && !component.reaches_border) {
       add(TopologyPlaceKind::kCavityLost, component.place);
     }
@@ -381,13 +381,13 @@ void PlaceFinder::find_cavities() {
 }
 
 void PlaceFinder::find_tunnels(const RelabelledVoxels& voxels) {
-  const bool added = label_.difference->b[1] > 0;
-  EulerWalk walk(image_, *label_.material, label_.open);
+  const bool added = label_.difference.value().b[1] > 0;
+  EulerWalk walk(image_, label_.material.value(), label_.open);
   std::vector<Index3> found;
   walk.relabel(voxels.uncovered, added ? -1 : 1, found);
   walk.relabel(voxels.overfilled, added ? -1 : 1, found);
   // Where some tunnels are added and others lost, the label differs by fewer than there are places.
-  found.resize(std::min(found.size(), static_cast<std::size_t>(std::abs(label_.difference->b[1]))));
+  found.resize(std::min(found.size(), static_cast<std::size_t>(std::abs(label_.difference.value().b[1]))));
   for (const Index3& voxel : found) {
     add(added ? TopologyPlaceKind::kTunnelAdded : TopologyPlaceKind::kTunnelLost, voxel);
   }
@@ -404,7 +404,7 @@ std::vector<std::vector<std::uint32_t>> cells_of(const MeshView& view,
   std::vector<std::vector<std::uint32_t>> cells(labels.size());
   for (std::size_t n = 0; n < labels.size(); ++n) {
     if (labels[n].mesh_label && differs(labels[n], 0)) {
-      wanted[*labels[n].mesh_label] = &cells[n];
+      wanted[labels[n].mesh_label.value()] = &cells[n];
     }
   }
   for (std::size_t c = 0; c < view.cell_count(); ++c) {
@@ -422,7 +422,7 @@ std::vector<std::optional<RelabelledVoxels>> voxels_of(const MeshView& view, con
   std::vector<std::size_t> whose;
   for (std::size_t n = 0; n < labels.size(); ++n) {
     if (labels[n].mesh_label && labels[n].material && labels[n].difference && differs(labels[n], 1)) {
-      wanted.push_back({*labels[n].mesh_label, *labels[n].material});
+      wanted.push_back({labels[n].mesh_label.value(), labels[n].material.value()});
       whose.push_back(n);
     }
   }
@@ -459,7 +459,7 @@ std::vector<TopologyPlace> topology_places(const MeshView& view, const Surface& 
       finder.find_cavities();
     }
     if (voxels[n]) {
-      finder.find_tunnels(*voxels[n]);
+      finder.find_tunnels(voxels[n].value());
     }
     places[n] = finder.take();
   }

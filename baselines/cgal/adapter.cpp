@@ -44,44 +44,30 @@ std::map<std::string, std::string> tuned() {
   return {{"cell-size", "2.5"}, {"facet-distance", "0.25"}, {"facet-size", "1.5"}};
 }
 
-/// `libraries`: what the program is built with; `packages`: the Debian packages that have them.
-Adapter make(const std::string& name, const std::string& description, const std::string& libraries,
-             const std::string& packages) {
-  const std::string executable = "cbc3d-mesher-" + name;
-  Adapter adapter;
-  adapter.name = name;
-  adapter.description = description;
-  adapter.licence = "GPL-3.0-or-later";
-  adapter.parameters = ParameterSource(parameters());
-  adapter.size_dial = [](const std::filesystem::path&) { return size_dial(); };
-  adapter.parameter_sets["tuned"] = tuned();
-  adapter.availability = [=](const std::filesystem::path& bin_dir) {
-    return executable_availability(
-        bin_dir, executable, "built without " + libraries + ": install " + packages + " and build again");
-  };
-  adapter.command = [name, executable, specs = parameters()](const std::filesystem::path& bin_dir,
-                                                             const MeshJob& job) {
-    return protocol_command(bin_dir / executable, name, specs, job);
-  };
-  return adapter;
+Adapter sequential() {
+  return {.name = "cgal",
+          .description = "CGAL Mesh_3, sequential, with perturbation and exudation",
+          .licence = "GPL-3.0-or-later",
+          .parameters = ParameterSource(parameters()),
+          .parameter_sets = {{"tuned", tuned()}}};
+}
+
+Adapter parallel() {
+  Adapter mesher = sequential();
+  mesher.name = "cgal-parallel";
+  mesher.description = "CGAL Mesh_3, parallel (TBB), with perturbation and exudation";
+  mesher.deterministic = false;
+  mesher.multithreaded = true;
+  return mesher;
 }
 
 }  // namespace
 
-Adapter cgal_adapter() {
-  return make("cgal", "CGAL Mesh_3, sequential, with perturbation and exudation", "CGAL", "libcgal-dev");
-}
-
-Adapter cgal_parallel_adapter() {
-  Adapter adapter = make("cgal-parallel", "CGAL Mesh_3, parallel (TBB), with perturbation and exudation",
-                         "CGAL or TBB", "libcgal-dev and libtbb-dev");
-  adapter.deterministic = false;
-  adapter.multithreaded = true;
-  return adapter;
-}
-
 std::vector<Adapter> cgal_adapters() {
-  return {cgal_adapter(), cgal_parallel_adapter()};
+  return {
+      program_adapter(sequential(), size_dial(), "built without CGAL: install libcgal-dev and build again"),
+      program_adapter(parallel(), size_dial(),
+                      "built without CGAL or TBB: install libcgal-dev and libtbb-dev and build again")};
 }
 
 }  // namespace cbc3d::baselines

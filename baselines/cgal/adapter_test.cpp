@@ -1,6 +1,6 @@
 #include "baselines/cgal/adapter.hpp"
 
-#include <gtest/gtest.h>
+#include "baselines/core/testing_adapter.hpp"
 
 namespace cbc3d::baselines {
 namespace {
@@ -8,21 +8,11 @@ namespace {
 TEST(CgalAdapters, OnlyTheParallelOneIsNotRepeatable) {
   const std::vector<Adapter> adapters = cgal_adapters();
   ASSERT_EQ(adapters.size(), 2U);
-  EXPECT_EQ(adapters[0].name, "cgal");
-  EXPECT_TRUE(adapters[0].deterministic);
-  EXPECT_FALSE(adapters[0].multithreaded);
-  EXPECT_EQ(adapters[1].name, "cgal-parallel");
-  EXPECT_FALSE(adapters[1].deterministic);
-  EXPECT_TRUE(adapters[1].multithreaded);
-}
-
-TEST(CgalAdapters, TheProgramIsNamedAfterTheMesher) {
-  for (const Adapter& adapter : cgal_adapters()) {
-    const auto argv = adapter.command("bin", {"in.nii", "out.vtu", "r.json", 3, {{"cell-size", "4"}}});
-    EXPECT_EQ(argv.front(), "bin/cbc3d-mesher-" + adapter.name);
-    EXPECT_EQ(argv.back(), "4");
-    EXPECT_EQ(adapter.licence, "GPL-3.0-or-later");
-  }
+  testing::expect_program_adapter(adapters[0], {.name = "cgal", .licence = "GPL-3.0-or-later"});
+  testing::expect_program_adapter(adapters[1], {.name = "cgal-parallel",
+                                                .licence = "GPL-3.0-or-later",
+                                                .deterministic = false,
+                                                .multithreaded = true});
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ SurfaceMesh cgal_mesh(const std::vector<Triangle>& triangles) {
 
 cbc3d::metrics::SearchableSurface<Triangle> our_surface(const std::vector<Triangle>& triangles) {
   std::vector<SmoothTriangle> list;
+  list.reserve(triangles.size());
   for (const Triangle& t : triangles) list.push_back({t, cbc3d::kBackground, {}});
   return cbc3d::metrics::searchable_triangles(list);
 }
@@ -58,7 +59,7 @@ std::vector<Triangle> bumpy_sphere(double radius, int n, double height, double w
 void compare(const std::vector<Triangle>& a, const std::vector<Triangle>& b) {
   constexpr double kTolerance = 1e-3;
   const auto ours =
-      cbc3d::metrics::surface_distance(our_surface(a), our_surface(b), CertifyOptions{kTolerance});
+      cbc3d::metrics::surface_distance(our_surface(a), our_surface(b), CertifyOptions{kTolerance}).value();
   const SurfaceMesh mesh_a = cgal_mesh(a), mesh_b = cgal_mesh(b);
   ASSERT_EQ(mesh_a.number_of_faces(), a.size());
   ASSERT_EQ(mesh_b.number_of_faces(), b.size());
@@ -68,15 +69,15 @@ void compare(const std::vector<Triangle>& a, const std::vector<Triangle>& b) {
   const double b_to_a =
       pmp::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(mesh_b, mesh_a, kTolerance);
   // Both are within the tolerance of the truth.
-  for (const auto& [bounds, theirs] :
-       {std::pair(ours->image_to_mesh.bounds, a_to_b), std::pair(ours->mesh_to_image.bounds, b_to_a)}) {
-    EXPECT_LE(bounds->upper_mm - bounds->lower_mm, kTolerance + 1e-12);
-    EXPECT_GE(bounds->upper_mm, theirs - kTolerance);
-    EXPECT_LE(bounds->lower_mm, theirs + kTolerance);
+  for (const auto& [bounds, theirs] : {std::pair(ours.image_to_mesh.bounds.value(), a_to_b),
+                                       std::pair(ours.mesh_to_image.bounds.value(), b_to_a)}) {
+    EXPECT_LE(bounds.upper_mm - bounds.lower_mm, kTolerance + 1e-12);
+    EXPECT_GE(bounds.upper_mm, theirs - kTolerance);
+    EXPECT_LE(bounds.lower_mm, theirs + kTolerance);
   }
   const double two_sided =
       pmp::bounded_error_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(mesh_a, mesh_b, kTolerance);
-  EXPECT_NEAR(ours->bounds()->lower_mm, two_sided, 2 * kTolerance);
+  EXPECT_NEAR(ours.bounds().value().lower_mm, two_sided, 2 * kTolerance);
 }
 
 TEST(CgalHausdorff, BumpySpheresOfDifferentMeshes) {

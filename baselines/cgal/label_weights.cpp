@@ -28,6 +28,7 @@ std::vector<float> kernel_of(double sigma_voxels) {
     sum += values.back();
   }
   std::vector<float> kernel;
+  kernel.reserve(values.size());
   for (const double value : values) kernel.push_back(static_cast<float>(value / sum));
   return kernel;
 }
@@ -46,8 +47,10 @@ std::vector<float> blurred(const std::vector<float>& field, const Box& box, int 
     const int at = static_cast<int>(v / stride % static_cast<std::size_t>(length));
     const int from = std::max(-radius, -at), to = std::min(radius, length - 1 - at);
     float sum = 0;
-    for (int n = from; n <= to; ++n)
-      sum += kernel[static_cast<std::size_t>(n + radius)] * field[v + static_cast<std::size_t>(n) * stride];
+    for (int n = from; n <= to; ++n) {
+      const int of_kernel = n + radius;
+      sum += kernel[static_cast<std::size_t>(of_kernel)] * field[v + static_cast<std::size_t>(n) * stride];
+    }
     result[v] = sum;
   }
   return result;
@@ -96,17 +99,16 @@ class Weights {
   [[nodiscard]] std::vector<Box> boxes() const {
     std::vector<Box> boxes(image_.material_count(), Box{size_, {0, 0, 0}});
     const Index3& n = image_.frame.size;
-    for (int k = 0; k < n[2]; ++k)
+    for (int k = 0; k < n[2]; ++k) {
       for (int j = 0; j < n[1]; ++j)
         for (int i = 0; i < n[0]; ++i) extend(boxes[image_.at_or_background(i, j, k)], {i, j, k});
+    }
     return boxes;
   }
 
  private:
   [[nodiscard]] std::size_t offset(int i, int j, int k) const {
-    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size_[1]) + static_cast<std::size_t>(j)) *
-               static_cast<std::size_t>(size_[0]) +
-           static_cast<std::size_t>(i);
+    return ImageFrame{.size = size_}.offset(i, j, k);
   }
 
   void extend(Box& box, const Index3& voxel) const {
@@ -120,9 +122,10 @@ class Weights {
   template <typename Visit>
   static void visit(const Box& box, Visit visit) {
     std::size_t in_box = 0;
-    for (int k = box.first[2]; k < box.end[2]; ++k)
+    for (int k = box.first[2]; k < box.end[2]; ++k) {
       for (int j = box.first[1]; j < box.end[1]; ++j)
         for (int i = box.first[0]; i < box.end[0]; ++i) visit(in_box++, i, j, k);
+    }
   }
 
   const LabelImage& image_;

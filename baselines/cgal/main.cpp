@@ -12,9 +12,9 @@ using cbc3d::baselines::CgalOptions;
 using cbc3d::baselines::ParameterValues;
 
 #ifdef CBC3D_CGAL_PARALLEL
-const auto make_adapter = cbc3d::baselines::cgal_parallel_adapter;
+constexpr std::size_t kMesher = 1;
 #else
-const auto make_adapter = cbc3d::baselines::cgal_adapter;
+constexpr std::size_t kMesher = 0;
 #endif
 
 CgalOptions options_of(const ParameterValues& values) {
@@ -45,7 +45,7 @@ CgalOptions options_of(const ParameterValues& values) {
 
 int main(int argc, char** argv) {
   cbc3d::baselines::MesherProgram program;
-  program.adapter = make_adapter();
+  program.adapter = cbc3d::baselines::cgal_adapters().at(kMesher);
   program.versions = {{"cgal", CGAL_VERSION_STR}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int threads,

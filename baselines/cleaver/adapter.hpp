@@ -7,9 +7,7 @@
 
 namespace cbc3d::baselines {
 
-Adapter cleaver_adapter();
-
-/// All meshers of this folder.
+/// The only mesher of this folder.
 std::vector<Adapter> cleaver_adapters();
 
 }  // namespace cbc3d::baselines

@@ -190,36 +190,50 @@ std::vector<Key> all_keys(const std::vector<Part>& parts) {
   return merged.empty() ? std::vector<Key>{} : std::move(merged.front());
 }
 
-}  // namespace
-
-Lattice background_lattice(const Octree& octree, const std::vector<Leaf>& leaves) {
+// The parts of all leaves, which threads make each by itself.
+std::vector<Part> parts_of(const Octree& octree, const std::vector<Leaf>& leaves) {
   constexpr std::size_t kLeavesOfPart = 4096;
   std::vector<Part> parts((leaves.size() + kLeavesOfPart - 1) / kLeavesOfPart);
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t p = 0; p < parts.size(); ++p)
     parts[p] = part_of(octree, leaves, p * kLeavesOfPart, std::min(leaves.size(), (p + 1) * kLeavesOfPart));
+  return parts;
+}
+
+std::vector<Vec3> points_of(const LatticeGrid& grid, const std::vector<Key>& keys) {
+  std::vector<Vec3> points(keys.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t n = 0; n < keys.size(); ++n) {
+    const Index3 p = place_of(keys[n]);
+    points[n] = grid.place(0.5 * p[0], 0.5 * p[1], 0.5 * p[2]);
+  }
+  return points;
+}
+
+// Writes the tets of a part with the lattice's numbers of their vertices.
+void number_tets(const Part& part, const std::vector<Key>& keys, TetNodes::value_type* tets) {
+  std::vector<VertexId> ids(part.keys.size());
+  for (std::size_t n = 0; n < ids.size(); ++n) ids[n] = static_cast<VertexId>(rank_of(keys, part.keys[n]));
+  for (std::size_t t = 0; t < part.tets.size(); ++t) {
+    for (std::size_t n = 0; n < 4; ++n) tets[t][n] = ids[rank_of(part.keys, part.tets[t][n])];
+  }
+}
+
+}  // namespace
+
+Lattice background_lattice(const Octree& octree, const std::vector<Leaf>& leaves) {
+  std::vector<Part> parts = parts_of(octree, leaves);
   const std::vector<Key> keys = all_keys(parts);
   std::vector<std::size_t> begins(parts.size() + 1, 0);
   for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].tets.size();
   if (keys.size() >= (std::size_t{1} << 31U) || begins.back() >= (std::size_t{1} << 31U))
     throw JobError("the background lattice has more than two thousand million cells: lower --sampling-rate");
   Lattice lattice;
-  lattice.points.resize(keys.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t n = 0; n < keys.size(); ++n) {
-    const Index3 p = place_of(keys[n]);
-    lattice.points[n] = octree.grid().place(0.5 * p[0], 0.5 * p[1], 0.5 * p[2]);
-  }
+  lattice.points = points_of(octree.grid(), keys);
   lattice.tets.resize(begins.back());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    std::vector<VertexId> ids(parts[p].keys.size());
-    for (std::size_t n = 0; n < ids.size(); ++n)
-      ids[n] = static_cast<VertexId>(rank_of(keys, parts[p].keys[n]));
-    for (std::size_t t = 0; t < parts[p].tets.size(); ++t) {
-      for (std::size_t n = 0; n < 4; ++n)
-        lattice.tets[begins[p] + t][n] = ids[rank_of(parts[p].keys, parts[p].tets[t][n])];
-    }
+    number_tets(parts[p], keys, lattice.tets.data() + begins[p]);
     parts[p] = {};
   }
   return lattice;

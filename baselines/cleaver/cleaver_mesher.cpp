@@ -24,9 +24,10 @@ Vec3 blur_in_voxels(const LabelImage& image, double blur_mm) {
   Vec3 blur;
   for (int axis = 0; axis < 3; ++axis) {
     blur[axis] = blur_mm / image.frame.spacing_mm[axis];
-    if (blur[axis] > ImageIndicators::kMostBlur)
+    if (blur[axis] > ImageIndicators::kMostBlur) {
       throw InputError("--blur " + std::to_string(blur_mm) + ": more than " +
                        std::to_string(static_cast<int>(ImageIndicators::kMostBlur)) + " voxels; give less");
+    }
   }
   return blur;
 }
@@ -146,15 +147,15 @@ class Run {
   }
 
   void note_sharp_labels(const ImageIndicators& indicators) {
-    if (!indicators.sharp_materials().empty())
-      result_.notes.push_back(names_of(image_, indicators.sharp_materials()) +
-                              ": erased by the blur, so taken from the voxels as they are");
+    if (indicators.sharp_materials().empty()) return;
+    result_.notes.push_back(names_of(image_, indicators.sharp_materials()) +
+                            ": erased by the blur, so taken from the voxels as they are");
   }
   void note_lost_labels(const CleavedMesh& cleaved) {
     const std::vector<MaterialId> missing = missing_materials(image_, cleaved.materials);
-    if (!missing.empty())
-      result_.notes.push_back(names_of(image_, missing) +
-                              ": not in the mesh, smaller than its smallest cells; raise the sampling rate");
+    if (missing.empty()) return;
+    result_.notes.push_back(names_of(image_, missing) +
+                            ": not in the mesh, smaller than its smallest cells; raise the sampling rate");
   }
 
   void finish(CleavedMesh&& cleaved) {

@@ -10,8 +10,7 @@ namespace {
 TEST(CutLattice, EveryEdgeBetweenMaterialsHasOneCutOnThePlane) {
   const testing::PlaneIndicators plane({0.6, 0, 0.8}, 4.3);
   Lattice lattice = testing::uniform_lattice(6);
-  std::vector<MaterialId> materials;
-  for (const Vec3& p : lattice.points) materials.push_back(plane.material_at(p));
+  std::vector<MaterialId> materials = testing::materials_at(lattice.points, plane);
   const CutLattice cut = cut_edges(std::move(lattice), std::move(materials), plane);
   EXPECT_FALSE(cut.mixed.empty());
   for (const Cut& c : cut.cuts) {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "baselines/cleaver/lattice_grid.hpp"
+#include "baselines/cleaver/cell_array.hpp"
 
 namespace cbc3d::baselines::cleaver {
 

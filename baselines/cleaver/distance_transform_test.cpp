@@ -25,9 +25,10 @@ TEST(DistanceTransform, AgreesWithBruteForce) {
       for (int j = 0; j < values.size[1]; ++j) {
         for (int i = 0; i < 7; ++i) {
           int least = kFarSquared;
-          for (const Index3& s : sites)
-            least =
-                std::min(least, (s[0] - i) * (s[0] - i) + (s[1] - j) * (s[1] - j) + (s[2] - k) * (s[2] - k));
+          for (const Index3& s : sites) {
+            const int x = s[0] - i, y = s[1] - j, z = s[2] - k;
+            least = std::min(least, x * x + y * y + z * z);
+          }
           ASSERT_EQ(values.at(i, j, k), least);
         }
       }

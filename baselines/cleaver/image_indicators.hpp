@@ -6,11 +6,10 @@
 // two thick labels at the same place.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "baselines/cleaver/indicators.hpp"
+#include "baselines/cleaver/uniform_bricks.hpp"
 #include "mesher/core/label_image.hpp"
 
 namespace cbc3d::baselines::cleaver {
@@ -38,19 +37,15 @@ class ImageIndicators final : public Indicators {
   static constexpr double kMostBlur = 16;  ///< voxels
 
  private:
-  static constexpr int kBrick = 4;                     // voxels along the edge of a brick
-  static constexpr std::uint32_t kMixed = 0xFFFFFFFF;  // a brick near which several materials are
-
   struct Share {
     MaterialId material;
     double value;
   };
   using Shares = std::vector<Share>;
 
-  void find_uniform_bricks();
   void find_sharp_materials();
-  [[nodiscard]] std::uint32_t brick_at(const Vec3& place) const;
   [[nodiscard]] const Shares& shares_at(const Vec3& place) const;
+  [[nodiscard]] double mask_at(const Vec3& voxel, MaterialId material) const;
   void sharpen(const Vec3& voxel, Shares& shares) const;
   [[nodiscard]] double lead(const Vec3& place, MaterialId a, MaterialId b) const;
   [[nodiscard]] double crossing_inside(const Vec3& from, const Vec3& to, MaterialId a, MaterialId b) const;
@@ -59,10 +54,9 @@ class ImageIndicators final : public Indicators {
   const LabelImage& image_;
   Vec3 blur_;   // standard deviations, voxels
   Vec3 reach_;  // voxels
+  UniformBricks bricks_;
   Vec3 low_, high_;
   double tolerance_ = 0;  // mm within which a place is on the box and not beyond it
-  Index3 bricks_{0, 0, 0};
-  std::vector<std::uint32_t> uniform_;  // of each brick: the only material within reach of it, or kMixed
   std::vector<MaterialId> sharp_;
   std::vector<char> is_sharp_;
 };

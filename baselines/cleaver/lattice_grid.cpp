@@ -81,6 +81,25 @@ double cell_along(const LabelImage& image, int axis, double cell_edge_mm, bool f
   return length / std::max(1.0, std::round(length / cell_edge_mm));
 }
 
+// Cells of size 1 along an axis, with a margin beyond the labels.
+struct AxisCells {
+  double edge_mm;   // of a cell of size 1
+  double first_mm;  // the lower side of the first one
+  double count;     // a multiple of those in the largest cells
+};
+
+AxisCells cells_over(const LabelImage& image, const VoxelBox& box, int axis, double edge_mm) {
+  const auto a = static_cast<std::size_t>(axis);
+  const double spacing = image.frame.spacing_mm[axis];
+  // Two cells and three voxels beyond the labels all is background, whatever is blurred by default.
+  const double border = -0.5 * spacing;
+  const double margin = 2 * edge_mm + 3 * spacing;
+  const double first = std::floor(((box.first[a] - 0.5) * spacing - margin - border) / edge_mm);
+  const double last = std::ceil(((box.last[a] + 0.5) * spacing + margin - border) / edge_mm);
+  const double top = 1 << kLevelsAboveUsual;
+  return {edge_mm, border + first * edge_mm, std::ceil((last - first) / top) * top};
+}
+
 }  // namespace
 
 LatticeGrid grid_over_labels(const LabelImage& image, double cell_edge_mm) {
@@ -93,24 +112,17 @@ LatticeGrid grid_over_labels(const LabelImage& image, double cell_edge_mm) {
   const bool fits_image = touches_border(box, image.frame.size);
   double total = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const double spacing = image.frame.spacing_mm[axis];
-    const double edge = cell_along(image, axis, cell_edge_mm, fits_image);
-    grid.cell_mm[axis] = edge / (1 << grid.usual_level);
-    // Two cells and three voxels beyond the labels all is background, whatever is blurred by default.
-    const double border = -0.5 * spacing;
-    const double margin = 2 * edge + 3 * spacing;
-    const double first = std::floor(((box.first[a] - 0.5) * spacing - margin - border) / edge);
-    const double last = std::ceil(((box.last[a] + 0.5) * spacing + margin - border) / edge);
-    grid.origin_mm[axis] = border + first * edge;
-    const double top = 1 << kLevelsAboveUsual;
-    const double cells = std::ceil((last - first) / top) * top * (1 << grid.usual_level);
+    const AxisCells along = cells_over(image, box, axis, cell_along(image, axis, cell_edge_mm, fits_image));
+    grid.origin_mm[axis] = along.first_mm;
+    grid.cell_mm[axis] = along.edge_mm / (1 << grid.usual_level);
+    const double cells = along.count * (1 << grid.usual_level);
     total *= cells;
-    if (cells > 1e6 || total > kMostGridCells)
+    if (cells > 1e6 || total > kMostGridCells) {
       throw JobError(
           "the lattice's grid would have more than 1e6 cells along an axis or 6e10 in all: lower "
           "--sampling-rate");
-    grid.cells[a] = static_cast<int>(cells);
+    }
+    grid.cells[static_cast<std::size_t>(axis)] = static_cast<int>(cells);
   }
   return grid;
 }

@@ -4,11 +4,6 @@
 // of a cell, so its coordinates are whole numbers of half grid cells.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
-#include "baselines/cleaver/image_indicators.hpp"
 #include "mesher/core/label_image.hpp"
 
 namespace cbc3d::baselines::cleaver {
@@ -27,30 +22,6 @@ struct LatticeGrid {
   [[nodiscard]] Index3 cells_of_level(int level) const {
     return {cells[0] >> level, cells[1] >> level, cells[2] >> level};
   }
-};
-
-/// A value for each cell of a level.
-template <typename T>
-struct CellArray {
-  Index3 size{0, 0, 0};
-  std::vector<T> values;
-
-  CellArray() = default;
-  CellArray(const Index3& cells, T value)
-      : size(cells),
-        values(static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) *
-                   static_cast<std::size_t>(cells[2]),
-               value) {}
-  [[nodiscard]] std::size_t offset(int i, int j, int k) const {
-    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(j)) *
-               static_cast<std::size_t>(size[0]) +
-           static_cast<std::size_t>(i);
-  }
-  [[nodiscard]] bool contains(int i, int j, int k) const {
-    return i >= 0 && j >= 0 && k >= 0 && i < size[0] && j < size[1] && k < size[2];
-  }
-  [[nodiscard]] T& at(int i, int j, int k) { return values[offset(i, j, k)]; }
-  [[nodiscard]] const T& at(int i, int j, int k) const { return values[offset(i, j, k)]; }
 };
 
 /// The grid over the labelled part of an image with a margin. Its corners lie on voxel corners; where a label

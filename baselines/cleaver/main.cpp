@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   cbc3d::let_waiting_threads_sleep(argv);
   cbc3d::keep_freed_memory();
   cbc3d::baselines::MesherProgram program;
-  program.adapter = cbc3d::baselines::cleaver_adapter();
+  program.adapter = cbc3d::baselines::cleaver_adapters().front();
   program.versions = {{"cleaver", "of this project"}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int,

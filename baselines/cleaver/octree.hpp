@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "baselines/cleaver/cell_array.hpp"
+#include "baselines/cleaver/image_indicators.hpp"
 #include "baselines/cleaver/lattice_grid.hpp"
 
 namespace cbc3d::baselines::cleaver {

@@ -133,26 +133,33 @@ CellArray<float> least_feature_sizes(const Distances& boundary, const Distances&
   return least;
 }
 
-// Lets sizes grow from cell to cell by no more than the Lipschitz constant: two sweeps of a chamfer
-// transform.
-void limit_growth(CellArray<float>& sizes, double lipschitz) {
-  struct Step {
-    int i, j, k;
-    float rise;
-  };
-  std::vector<Step> before;
+// A step to a neighbour that a sweep in the order of cells comes to earlier, and what a size may grow on it.
+struct Step {
+  int i, j, k;
+  float rise;
+};
+
+std::vector<Step> steps_to_earlier_neighbours(double lipschitz) {
+  std::vector<Step> steps;
   for (int k = -1; k <= 0; ++k) {
     for (int j = -1; j <= 1; ++j) {
       for (int i = -1; i <= 1; ++i) {
         const bool earlier = k < 0 || (k == 0 && (j < 0 || (j == 0 && i < 0)));
         const double length = 2 * std::sqrt(static_cast<double>(i * i + j * j + k * k));
-        if (earlier) before.push_back({i, j, k, static_cast<float>(lipschitz * length)});
+        if (earlier) steps.push_back({i, j, k, static_cast<float>(lipschitz * length)});
       }
     }
   }
+  return steps;
+}
+
+// Lets sizes grow from cell to cell by no more than the Lipschitz constant: two sweeps of a chamfer
+// transform.
+void limit_growth(CellArray<float>& sizes, double lipschitz) {
+  const std::vector<Step> earlier = steps_to_earlier_neighbours(lipschitz);
   const auto relax = [&](int i, int j, int k, int sign) {
     float value = sizes.at(i, j, k);
-    for (const Step& s : before) {
+    for (const Step& s : earlier) {
       const int x = i + sign * s.i, y = j + sign * s.j, z = k + sign * s.k;
       if (sizes.contains(x, y, z)) value = std::min(value, sizes.at(x, y, z) + s.rise);
     }

@@ -2,6 +2,8 @@
 // larger than its distance from the medial axis, farther from it larger by a Lipschitz constant.
 #pragma once
 
+#include "baselines/cleaver/cell_array.hpp"
+#include "baselines/cleaver/image_indicators.hpp"
 #include "baselines/cleaver/lattice_grid.hpp"
 
 namespace cbc3d::baselines::cleaver {

@@ -22,16 +22,18 @@ void expect_all_of_the_lattice(Lattice lattice, double edge, double rim, std::ui
 }
 
 TEST(Stencil, FillsTheUniformLatticeExactly) {
-  for (int materials = 2; materials < 9; ++materials)
+  for (int materials = 2; materials < 9; ++materials) {
     expect_all_of_the_lattice(testing::uniform_lattice(9), 9, 1.6, static_cast<std::uint64_t>(materials),
                               materials);
+  }
 }
 
 TEST(Stencil, FillsGradedLatticesExactly) {
   std::mt19937 random(2);
-  for (int materials = 2; materials < 6; ++materials)
+  for (int materials = 2; materials < 6; ++materials) {
     expect_all_of_the_lattice(testing::graded_lattice(32, random), 32, 12.1,
                               static_cast<std::uint64_t>(materials), materials);
+  }
 }
 
 TEST(Stencil, LeavesOutBackgroundAndIsTheSameAtAnyThreadCount) {

@@ -109,14 +109,21 @@ class PlaneIndicators final : public Indicators {
   double offset_;
 };
 
+inline std::vector<MaterialId> materials_at(const std::vector<Vec3>& points, const Indicators& indicators) {
+  std::vector<MaterialId> materials(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) materials[v] = indicators.material_at(points[v]);
+  return materials;
+}
+
 /// Materials of the vertices by the indicators, with 0 within 1.6 mm of the sides of a cube, so that no
 /// vertex of the lattice's surface moves.
 inline std::vector<MaterialId> inner_materials(const Lattice& lattice, const Indicators& indicators,
                                                double edge, double rim) {
-  std::vector<MaterialId> materials;
-  for (const Vec3& p : lattice.points) {
+  std::vector<MaterialId> materials = materials_at(lattice.points, indicators);
+  for (std::size_t v = 0; v < materials.size(); ++v) {
+    const Vec3& p = lattice.points[v];
     const bool inner = p.min_coeff() > rim && p.max_coeff() < edge - rim;
-    materials.push_back(inner ? indicators.material_at(p) : MaterialId{0});
+    if (!inner) materials[v] = 0;
   }
   return materials;
 }

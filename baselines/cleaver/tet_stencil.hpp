@@ -37,6 +37,6 @@ struct TetPieces {
   bool uses_quad = false;
   Vec3 quad_place;  ///< where it is used
 };
-TetPieces pieces_of(const TetState& state);
+TetPieces pieces_of(const TetState& given);
 
 }  // namespace cbc3d::baselines::cleaver

@@ -66,8 +66,7 @@ TEST(TetStencil, PlanesAtAnyPlaceGiveAnglesWithinTheBounds) {
     const Vec3 normal = cbc3d::testing::draw_point(random, -1, 1).normalized();
     const testing::PlaneIndicators plane(normal, normal.dot({4, 4, 4}) + cbc3d::testing::draw(random, -1, 1));
     Lattice lattice = testing::uniform_lattice(8);
-    std::vector<MaterialId> materials;
-    for (const Vec3& p : lattice.points) materials.push_back(plane.material_at(p));
+    std::vector<MaterialId> materials = testing::materials_at(lattice.points, plane);
     const CutLattice cut = testing::cut_and_warped(std::move(lattice), std::move(materials), plane);
     const Angles angles = angles_of_pieces(cut, 2);
     ASSERT_EQ(angles.inverted, 0U);

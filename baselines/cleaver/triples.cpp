@@ -113,12 +113,13 @@ class Locator {
       return;
     }
     const std::uint32_t nearer = triple.cuts[t < 0.5 ? b : a], other = triple.cuts[t < 0.5 ? a : b];
-    if (is_within(cut_, nearer))
+    if (is_within(cut_, nearer)) {
       triple.snapped_to = nearer;
-    else if (is_within(cut_, other))
+    } else if (is_within(cut_, other)) {
       triple.snapped_to = other;
-    else
+    } else {
       place(triple, at);
+    }
   }
 
   // Barycentric coordinates of a place in the face's plane.

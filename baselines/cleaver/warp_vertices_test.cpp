@@ -30,8 +30,7 @@ TEST(WarpVertices, VerticesNearAPlaneMoveOntoIt) {
   const testing::PlaneIndicators plane({0, 0, 1}, 4.1);
   Lattice lattice = testing::uniform_lattice(8);
   const std::vector<Vec3> before = lattice.points;
-  std::vector<MaterialId> materials;
-  for (const Vec3& p : lattice.points) materials.push_back(plane.material_at(p));
+  std::vector<MaterialId> materials = testing::materials_at(lattice.points, plane);
   CutLattice cut = cut_edges(std::move(lattice), std::move(materials), plane);
   set_alphas(cut);
   warp_vertices(cut, plane);

@@ -39,6 +39,20 @@ Availability executable_availability(const std::filesystem::path& bin_dir, const
   return {false, remedy};
 }
 
+Adapter program_adapter(Adapter mesher, const SizeDial& dial, std::string remedy) {
+  const std::string executable = "cbc3d-mesher-" + mesher.name;
+  if (remedy.empty()) remedy = "not built: build the target " + executable;
+  mesher.availability = [executable, remedy](const std::filesystem::path& bin_dir) {
+    return executable_availability(bin_dir, executable, remedy);
+  };
+  mesher.command = [executable, name = mesher.name, parameters = mesher.parameters](
+                       const std::filesystem::path& bin_dir, const MeshJob& job) {
+    return protocol_command(bin_dir / executable, name, parameters.in(bin_dir), job);
+  };
+  mesher.size_dial = [dial](const std::filesystem::path&) { return dial; };
+  return mesher;
+}
+
 std::filesystem::path find_program(const std::string& program) {
   std::error_code ignored;
   if (program.find('/') != std::string::npos) {

@@ -16,9 +16,9 @@ namespace cbc3d::baselines {
 
 /// One run of a mesher: files, threads and the parameters that differ from their defaults.
 struct MeshJob {
-  std::filesystem::path image;                    ///< label image to read
-  std::filesystem::path mesh;                     ///< mesh file to write
-  std::filesystem::path report;                   ///< JSON report to write
+  std::filesystem::path image{};                  ///< label image to read
+  std::filesystem::path mesh{};                   ///< mesh file to write
+  std::filesystem::path report{};                 ///< JSON report to write
   int threads = 1;                                ///< threads of the whole run, at least 1
   std::map<std::string, std::string> parameters;  ///< by ParameterSpec::key; absent ones take their default
 };
@@ -63,23 +63,23 @@ struct Availability {
 
 /// A mesher as the bench sees it.
 struct Adapter {
-  std::string name;
-  std::string description;
-  std::string licence;         ///< SPDX expression
+  std::string name{};
+  std::string description{};
+  std::string licence{};       ///< SPDX expression
   bool deterministic = true;   ///< same input, same bytes
   bool multithreaded = false;  ///< the meshing itself gains from more threads
   bool openmp = false;         ///< all its threads are OpenMP's
   ParameterSource parameters{};
-  std::function<Availability(const std::filesystem::path& bin_dir)> availability;
+  std::function<Availability(const std::filesystem::path& bin_dir)> availability{};
   /// The argument vector of a job. Throws InputError for a parameter the mesher does not have.
-  std::function<std::vector<std::string>(const std::filesystem::path& bin_dir, const MeshJob&)> command;
+  std::function<std::vector<std::string>(const std::filesystem::path& bin_dir, const MeshJob&)> command{};
   /// How the number of elements is set with the programs in `bin_dir`; null, or none: the mesher has no such
   /// parameter.
-  std::function<std::optional<SizeDial>(const std::filesystem::path& bin_dir)> size_dial;
+  std::function<std::optional<SizeDial>(const std::filesystem::path& bin_dir)> size_dial{};
   /// Parameters of the mesher for any image, by the name of their set.
-  std::map<std::string, std::map<std::string, std::string>> parameter_sets;
-  std::string mesh_extension = ".vtu";       ///< of the mesh file that the command writes
-  std::vector<std::string> version_command;  ///< prints the version; empty: the report has it
+  std::map<std::string, std::map<std::string, std::string>> parameter_sets{};
+  std::string mesh_extension = ".vtu";         ///< of the mesh file that the command writes
+  std::vector<std::string> version_command{};  ///< prints the version; empty: the report has it
 };
 
 /// The folder of the running program, which is that of all meshers' programs.
@@ -88,6 +88,11 @@ std::filesystem::path program_folder();
 /// Available when `executable` is a file in `bin_dir`; otherwise the reason is `remedy`.
 Availability executable_availability(const std::filesystem::path& bin_dir, const std::string& executable,
                                      const std::string& remedy);
+
+/// Completes the adapter of a mesher whose program cbc3d-mesher-NAME follows the protocol of driver.hpp: its
+/// availability, its command and its size dial. `remedy` says how to get the program where it is not there;
+/// empty: by building its target.
+Adapter program_adapter(Adapter mesher, const SizeDial& dial, std::string remedy = "");
 
 /// Where the shell would find a program: a path is its own place, a name is sought in PATH. Empty when it is
 /// nowhere.

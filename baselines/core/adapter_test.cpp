@@ -16,10 +16,10 @@ TEST(ParameterSource, AsksForEachFolderOnce) {
     return ParameterSpecs{{bin_dir.string(), "1", "", "x"}};
   });
   EXPECT_TRUE(asked.empty());
-  const ParameterSource copy = source;
+  const std::vector<ParameterSource> copies{source, source};
   EXPECT_EQ(source.in("a").front().key, "a");
-  EXPECT_EQ(copy.in("a").front().key, "a");
-  EXPECT_EQ(copy.in("b").front().key, "b");
+  EXPECT_EQ(copies[0].in("a").front().key, "a");
+  EXPECT_EQ(copies[1].in("b").front().key, "b");
   EXPECT_EQ(asked, (std::vector<std::filesystem::path>{"a", "b"}));
 }
 
@@ -58,6 +58,16 @@ TEST(ProtocolCommand, CarriesTheWholeJob) {
                       "r.json",   "--threads", "3",      "--quiet", "--size",  "4"};
   EXPECT_EQ(protocol_command("bin/tool", "tool", known, {"in.nii", "out.vtu", "r.json", 3, {{"size", "4"}}}),
             expected);
+}
+
+TEST(ProgramAdapter, TheRestFollowsFromTheName) {
+  const Adapter adapter = program_adapter({.name = "tool", .parameters = {{"size", "2", "mm", "a length"}}},
+                                          {.parameter = "size", .first = 2});
+  EXPECT_EQ(adapter.command("bin", {.parameters = {{"size", "4"}}}).front(), "bin/cbc3d-mesher-tool");
+  EXPECT_THROW(adapter.command("bin", {.parameters = {{"sise", "4"}}}), InputError);
+  EXPECT_EQ(adapter.availability("bin").reason, "not built: build the target cbc3d-mesher-tool");
+  EXPECT_EQ(size_dial_of(adapter, "bin").value_or(SizeDial{}).parameter, "size");
+  EXPECT_EQ(program_adapter({.name = "tool"}, {}, "buy it").availability("bin").reason, "buy it");
 }
 
 }  // namespace

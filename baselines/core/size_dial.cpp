@@ -40,7 +40,8 @@ std::string dial_text(const SizeDial& dial, double value) {
   return dial.counts_elements ? std::to_string(std::llround(value)) : five_digits(value);
 }
 
-Parameters with_size(const SizeDial& dial, double value, const ParameterSpecs& specs, Parameters given) {
+Parameters with_size(const SizeDial& dial, double value, const ParameterSpecs& specs,
+                     const Parameters& given) {
   const auto own = value_of(dial.parameter, specs, given);
   Parameters turned = given;
   for (const auto& [key, text] : dial.fixed) turned[key] = text;

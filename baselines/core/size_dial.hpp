@@ -32,6 +32,6 @@ std::string dial_text(const SizeDial& dial, double value);
 /// replaced. `specs` has the mesher's defaults.
 std::map<std::string, std::string> with_size(const SizeDial& dial, double value,
                                              const std::vector<ParameterSpec>& specs,
-                                             std::map<std::string, std::string> given);
+                                             const std::map<std::string, std::string>& given);
 
 }  // namespace cbc3d::baselines

@@ -1,13 +1,13 @@
 // LD as the bench sees it.
 #pragma once
 
+#include <vector>
+
 #include "baselines/core/adapter.hpp"
 
 namespace cbc3d::baselines {
 
-Adapter ld_adapter();
-
-/// The same as a list.
+/// The only mesher of this folder.
 std::vector<Adapter> ld_adapters();
 
 }  // namespace cbc3d::baselines

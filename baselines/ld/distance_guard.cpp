@@ -139,10 +139,24 @@ bool DistanceGuard::set_new_facets(VertexId w) {
                      [&](const NewFacet& f) { return is_near_image(f.corners, f.facet, 0); });
 }
 
+/// Squared distance of a place from the face of cell `c` towards the next cell along `axis`.
+double DistanceGuard::squared_distance_from_face(const Vec3& p, const Index3& c, int axis) const {
+  const Vec3 cell = grid_.cell_mm();
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const int n = c[static_cast<std::size_t>(a)];
+    const double from = (a == axis ? n + 1 : n) * cell[a];
+    const double to = (n + 1) * cell[a];
+    const double off = std::fmax(0.0, std::fmax(from - p[a], p[a] - to));
+    sum += off * off;
+  }
+  return sum;
+}
+
 bool DistanceGuard::is_near_image(const Triangle& t, const FanFacet& facet, int depth) const {
   constexpr int kMostCuts = 6;
-  const Vec3 cell = grid_.cell_mm();
   const Vec3 centre = (t[0] + t[1] + t[2]) / 3;
+  const Vec3 cell = grid_.cell_mm();
   Index3 home{};
   for (int a = 0; a < 3; ++a)
     home[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(centre[a] / cell[a]));
@@ -153,22 +167,11 @@ bool DistanceGuard::is_near_image(const Triangle& t, const FanFacet& facet, int 
     ++next[static_cast<std::size_t>(near.axis)];
     const auto [low, high] = std::minmax({grid_.at(c[0], c[1], c[2]), grid_.at(next[0], next[1], next[2])});
     if (low != facet.low || high != facet.high) continue;
-    const auto squared = [&](const Vec3& p) {
-      double sum = 0;
-      for (int a = 0; a < 3; ++a) {
-        const auto n = static_cast<std::size_t>(a);
-        const double from = (a == near.axis ? next[n] : c[n]) * cell[a];
-        const double to = (c[n] + 1) * cell[a];
-        const double off = std::fmax(0.0, std::fmax(from - p[a], p[a] - to));
-        sum += off * off;
-      }
-      return sum;
+    const auto is_near = [&](const Vec3& p) {
+      return squared_distance_from_face(p, c, near.axis) <= squared_mesh_to_image_;
     };
-    if (squared(t[0]) <= squared_mesh_to_image_ && squared(t[1]) <= squared_mesh_to_image_ &&
-        squared(t[2]) <= squared_mesh_to_image_) {
-      return true;
-    }
-    is_centre_near = is_centre_near || squared(centre) <= squared_mesh_to_image_;
+    if (std::all_of(t.begin(), t.end(), is_near)) return true;
+    is_centre_near = is_centre_near || is_near(centre);
   }
   if (!is_centre_near || depth == kMostCuts) return false;
   const auto parts = quarters(t, [](const Vec3& a, const Vec3& b) { return (a + b) * 0.5; });

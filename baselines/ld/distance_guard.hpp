@@ -62,6 +62,7 @@ class DistanceGuard {
   void list_near_faces();
   bool set_new_facets(VertexId w);
   bool assign(const OldPiece& old, const std::array<LatticePoint, 3>& corners, int depth, VertexId w);
+  [[nodiscard]] double squared_distance_from_face(const Vec3& p, const Index3& c, int axis) const;
   [[nodiscard]] bool is_near_image(const Triangle& t, const FanFacet& facet, int depth) const;
 
   static constexpr std::uint32_t kEnd = 0xFFFFFFFFU;

@@ -7,11 +7,20 @@
 namespace cbc3d::baselines::ld {
 namespace {
 
+/// Numbers the cells of a cube with `side` of them along each edge, in the order of voxels.
+ImageFrame cube_frame(int side) {
+  return {.size = {side, side, side}};
+}
+
+std::size_t offset_in_cube(int side, const Index3& cell) {
+  return cube_frame(side).offset(cell[0], cell[1], cell[2]);
+}
+
 /// The materials of a block's cells and of one layer around it.
 class BlockCells {
  public:
   BlockCells(const CellGrid& grid, const Index3& low)
-      : low_(low), side_(grid.block() + 2), cells_(cube(static_cast<std::size_t>(side_))) {
+      : low_(low), side_(grid.block() + 2), cells_(cube_frame(side_).voxel_count()) {
     MaterialId* row = cells_.data();
     for (int k = 0; k < side_; ++k) {
       for (int j = 0; j < side_; ++j, row += side_) {
@@ -21,9 +30,8 @@ class BlockCells {
   }
 
   [[nodiscard]] MaterialId at(const Index3& cell) const {
-    const auto index = [&](std::size_t a) { return static_cast<std::size_t>(cell[a] - low_[a] + 1); };
-    const auto side = static_cast<std::size_t>(side_);
-    return cells_[(index(2) * side + index(1)) * side + index(0)];
+    return cells_[offset_in_cube(side_,
+                                 {cell[0] - low_[0] + 1, cell[1] - low_[1] + 1, cell[2] - low_[2] + 1})];
   }
 
   [[nodiscard]] CellsAround around(const Index3& corner) const {
@@ -36,8 +44,6 @@ class BlockCells {
   }
 
  private:
-  static std::size_t cube(std::size_t side) { return side * side * side; }
-
   Index3 low_;
   int side_;
   std::vector<MaterialId> cells_;
@@ -51,10 +57,9 @@ class BlockFiller {
         octree_(octree),
         options_(options),
         low_{block[0] * grid.block(), block[1] * grid.block(), block[2] * grid.block()},
-        cells_(grid, low_) {
-    const auto corners = static_cast<std::size_t>(grid.block() + 1);
-    ids_.assign(corners * corners * corners, kNoVertex);
-  }
+        cells_(grid, low_),
+        corners_(grid.block() + 1),
+        ids_(cube_frame(corners_).voxel_count(), kNoVertex) {}
 
   void fill(const Leaf& leaf) {
     const MaterialId material = cells_.at(leaf.low);
@@ -83,9 +88,7 @@ class BlockFiller {
   VertexId corner(const LatticePoint& point) {
     Index3 cell{};
     for (std::size_t a = 0; a < 3; ++a) cell[a] = point[a] / 2;
-    const auto index = [&](std::size_t a) { return static_cast<std::size_t>(cell[a] - low_[a]); };
-    const auto corners = static_cast<std::size_t>(grid_.block() + 1);
-    VertexId& id = ids_[(index(2) * corners + index(1)) * corners + index(0)];
+    VertexId& id = ids_[offset_in_cube(corners_, {cell[0] - low_[0], cell[1] - low_[1], cell[2] - low_[2]})];
     if (id == kNoVertex) {
       id = static_cast<VertexId>(mesh_.points.size());
       mesh_.points.push_back(point);
@@ -128,6 +131,7 @@ class BlockFiller {
   InitialMeshOptions options_;
   Index3 low_;
   BlockCells cells_;
+  int corners_;                // of cells along an edge of the block
   std::vector<VertexId> ids_;  // of the corners of cells
   std::vector<LeafTriangle> triangles_;
   LatticeMesh mesh_;

@@ -33,7 +33,7 @@ std::vector<Leaf> leaves_of(const CellGrid& grid, const LabelOctree& octree) {
 class LevelMap {
  public:
   LevelMap(const CellGrid& grid, const std::vector<Leaf>& leaves) : size_(grid.size()) {
-    levels_.assign(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]), -1);
+    levels_.assign(ImageFrame{.size = size_}.voxel_count(), -1);
     for (const Leaf& leaf : leaves) {
       const int side = 1 << leaf.level;
       for (int c = 0; c < side * side * side; ++c) {
@@ -57,7 +57,7 @@ class LevelMap {
 
  private:
   [[nodiscard]] std::size_t index(const Index3& c) const {
-    return static_cast<std::size_t>((c[2] * size_[1] + c[1]) * size_[0] + c[0]);
+    return ImageFrame{.size = size_}.offset(c[0], c[1], c[2]);
   }
   Index3 size_;
   std::vector<int> levels_;

@@ -63,9 +63,9 @@ TEST(LatticeDecimation, SurfacesAreTheVoxelsOwnWhereADistanceIsZero) {
   for (const SurfaceDistanceBounds& distances : {SurfaceDistanceBounds{0, 0}, SurfaceDistanceBounds{2, 0}}) {
     const Mesh mesh = meshed(image, {.decimation = {.distances = distances}, .clean = false, .block = 16});
     const auto judged = metrics::evaluate_mesh(mesh, image, {.smooth = false, .certified = false});
-    EXPECT_LE(judged.surface_hausdorff_mm.value(), 1e-9);
-    EXPECT_LE(judged.volume_error_percent_max.value(), 1e-9);
-    EXPECT_GE(judged.min_dihedral_deg.value(), 15);
+    EXPECT_LE(judged.surface_hausdorff_mm.value_or(1), 1e-9);
+    EXPECT_LE(judged.volume_error_percent_max.value_or(1), 1e-9);
+    EXPECT_GE(judged.min_dihedral_deg.value_or(0), 15);
     EXPECT_EQ(judged.inverted, 0U);
     EXPECT_TRUE(judged.conforming);
   }
@@ -76,7 +76,7 @@ TEST(LatticeDecimation, CleansNoiseIntoManifoldsAndMeshesWhatIsLeft) {
   const auto judged = metrics::evaluate_mesh(meshed(image, {}), image, {.smooth = false, .certified = false});
   EXPECT_TRUE(judged.conforming);
   EXPECT_EQ(judged.inverted, 0U);
-  EXPECT_GE(judged.min_dihedral_deg.value(), 15);
+  EXPECT_GE(judged.min_dihedral_deg.value_or(0), 15);
   EXPECT_TRUE(judged.missing_labels.empty());
 }
 

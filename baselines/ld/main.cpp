@@ -31,7 +31,7 @@ LatticeDecimationOptions options_of(const ParameterValues& values) {
 
 int main(int argc, char** argv) {
   cbc3d::baselines::MesherProgram program;
-  program.adapter = cbc3d::baselines::ld_adapter();
+  program.adapter = cbc3d::baselines::ld_adapters().front();
   program.versions = {{"cbc3d-mesher-ld", "1"}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int,

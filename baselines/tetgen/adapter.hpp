@@ -1,13 +1,13 @@
 // TetGen behind a surface net of the label image.
 #pragma once
 
+#include <vector>
+
 #include "baselines/core/adapter.hpp"
 
 namespace cbc3d::baselines {
 
-Adapter tetgen_adapter();
-
-/// The same as a list.
+/// The only mesher of this folder.
 std::vector<Adapter> tetgen_adapters();
 
 }  // namespace cbc3d::baselines

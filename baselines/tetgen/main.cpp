@@ -26,7 +26,7 @@ TetgenOptions options_of(const ParameterValues& values) {
 
 int main(int argc, char** argv) {
   cbc3d::baselines::MesherProgram program;
-  program.adapter = cbc3d::baselines::tetgen_adapter();
+  program.adapter = cbc3d::baselines::tetgen_adapters().front();
   program.versions = {{"tetgen", CBC3D_TETGEN_VERSION}};
   program.check = [](const ParameterValues& values) { options_of(values); };
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int,

@@ -42,10 +42,11 @@ Tubes braid(const Vessel& vessel, double wire_radius, std::uint64_t seed) {
   Tubes tubes;
   for (int wire = 0; wire < 2 * kWiresEachWay; ++wire) {
     const double way = wire % 2 == 0 ? 1 : -1;
+    const int of_its_way = wire / 2;
     std::vector<Knot> knots;
     for (int step = 0; step <= steps; ++step) {
       const double z = half_length * (2.0 * step / steps - 1);
-      const double turns = way * z / pitch + static_cast<double>(wire / 2) / kWiresEachWay + phase;
+      const double turns = way * z / pitch + static_cast<double>(of_its_way) / kWiresEachWay + phase;
       const double radius = braid_radius + way * sway * circle_at(kWiresEachWay * z / pitch).cosine;
       const CircleNumbers around = circle_at(turns);
       knots.push_back({middle + Vec3{radius * around.cosine, radius * around.sine, z}, wire_radius});

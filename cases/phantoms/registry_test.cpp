@@ -84,7 +84,8 @@ TEST(Phantoms, RingsHaveTheirVolumesAndAreClearOfEachOther) {
     double nearest = 1e9;  // sum of the distances to two rings: the gap at least
     for (int voxel = 0; voxel < 80 * 80 * 80; ++voxel) {
       std::array<double, 3> d{};
-      const Vec3 p{double(voxel % 80), double(voxel / 80 % 80), double(voxel / 6400)};
+      const int i = voxel % 80, j = voxel / 80 % 80, k = voxel / 6400;
+      const Vec3 p{double(i), double(j), double(k)};
       for (int r = 0; r < 3; ++r) d[static_cast<std::size_t>(r)] = distance(p, r + 1);
       std::sort(d.begin(), d.end());
       nearest = std::min(nearest, d[0] + d[1]);
@@ -156,8 +157,7 @@ TEST(Phantoms, NoiseIsAsMuchAsItSays) {
 class EveryPhantom : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPhantom, DependsOnItsArgumentsAlone) {
-  const std::string name = GetParam();
-  const Phantom phantom{name, {40, 36, 30}, {1, 1.25, 1.5}, 77, ""};
+  const Phantom phantom{GetParam(), {40, 36, 30}, {1, 1.25, 1.5}, 77, ""};
   set_thread_count(1);
   const LabelImage one = make_phantom(phantom);
   set_thread_count(2);

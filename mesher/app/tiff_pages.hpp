@@ -24,6 +24,6 @@ std::size_t count_tiff_pages(const std::string& file);
 
 /// Reads a page, counted from 0. Throws InputError for a damaged file, a palette, inverted greys, tiles,
 /// planes, and values that are no integers of 8, 16 or 32 bits nor floats of 32.
-TiffPage read_tiff_page(const std::string& file, std::size_t page);
+TiffPage read_tiff_page(const std::string& file, std::size_t number);
 
 }  // namespace cbc3d

@@ -43,9 +43,9 @@ void write_slice(const fs::path& path, const std::vector<Value>& values,
 /// Values that differ from pixel to pixel and from slice to slice.
 template <class Value>
 std::vector<Value> slice(int k) {
-  std::vector<Value> values;
-  for (std::size_t n = 0; n < kWidth * kHeight; ++n) {
-    values.push_back(static_cast<Value>(1 + n + 40 * static_cast<std::size_t>(k)));
+  std::vector<Value> values(kWidth * kHeight);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    values[n] = static_cast<Value>(1 + n + 40 * static_cast<std::size_t>(k));
   }
   return values;
 }

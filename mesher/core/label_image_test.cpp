@@ -104,7 +104,7 @@ TEST(LabelImage, NearestBoundaryVoxelIsThatOfAFullSearch) {
     const auto got = nearest_boundary_voxel(image, at, m, reach);
     ASSERT_EQ(got.has_value(), any);
     EXPECT_EQ(has_boundary_voxel_near(image, at, m, reach), any);
-    if (any) {
+    if (got) {
       EXPECT_NEAR((*got - at).squared_norm(), least, 1e-12);
     }
     found += any ? 1 : 0;

@@ -1,6 +1,7 @@
 #include "mesher/core/mesh_placement.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 
@@ -67,8 +68,7 @@ Placement placement_of(const Mesh& mesh, const LabelImage& image) {
     if (other >= kFits && other > placement.overlap + kFarBetter) {
       placement.elsewhere = true;
       placement.finding = std::string(text) + "; with " + what + " it would be " +
-                          std::to_string(static_cast<int>(100 * other + 0.5)) +
-                          " %: give the mesh in physical LPS mm";
+                          std::to_string(std::lround(100 * other)) + " %: give the mesh in physical LPS mm";
       return placement;
     }
   }

@@ -12,6 +12,7 @@
 #include "mesher/core/mapped_voxels.hpp"
 #include "mesher/core/voxel_bytes.hpp"
 #include "mesher/formats/byte_stream.hpp"
+#include "mesher/formats/component_type.hpp"
 #include "mesher/formats/dicom_data_set.hpp"
 #include "mesher/formats/dicom_segmentation.hpp"
 #include "mesher/formats/read_header.hpp"
@@ -23,6 +24,7 @@ namespace {
 
 using formats::Component;
 using formats::ImageHeader;
+using formats::with_type;
 
 /// The beginning of every message about a file.
 std::string subject_of(const fs::path& path) {
@@ -60,33 +62,6 @@ ImageFrame frame_of(const ImageHeader& header) {
     }
   }
   return frame;
-}
-
-/// Calls f with a null pointer to the type of the voxels.
-template <typename F>
-decltype(auto) with_type(Component component, const F& f) {
-  switch (component) {
-    case Component::uint8:
-      return f(static_cast<const std::uint8_t*>(nullptr));
-    case Component::int8:
-      return f(static_cast<const std::int8_t*>(nullptr));
-    case Component::uint16:
-      return f(static_cast<const std::uint16_t*>(nullptr));
-    case Component::int16:
-      return f(static_cast<const std::int16_t*>(nullptr));
-    case Component::uint32:
-      return f(static_cast<const std::uint32_t*>(nullptr));
-    case Component::int32:
-      return f(static_cast<const std::int32_t*>(nullptr));
-    case Component::uint64:
-      return f(static_cast<const std::uint64_t*>(nullptr));
-    case Component::int64:
-      return f(static_cast<const std::int64_t*>(nullptr));
-    case Component::float32:
-      return f(static_cast<const float*>(nullptr));
-    default:
-      return f(static_cast<const double*>(nullptr));
-  }
 }
 
 VoxelBytes voxels_in_memory(ImageHeader& header) {

@@ -22,7 +22,7 @@ TEST(TargetRows, FindsThoseInTheBallThatAreAskedFor) {
   std::vector<Vec3> centres;
   for (int k = 0; k < 24; ++k) {
     for (int j = 0; j < 24; ++j) {
-      const auto row = static_cast<std::size_t>(k * 24 + j);
+      const std::size_t row = image.frame.offset(0, j, k) / 24;
       for (std::uint64_t t = targets.first[row]; t < targets.first[row + 1]; ++t) {
         centres.push_back(image.frame.local_centre(targets.targets[t].i, j, k));
       }

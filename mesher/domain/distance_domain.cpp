@@ -94,7 +94,8 @@ BoundaryDistance DistanceDomain::boundary_distance(const Vec3& x, MaterialId a, 
   }
   const Vec3 foot = x - near.distance_mm * near.normal;
   const double here = std::max(distance_of(a, foot), distance_of(b, foot));
-  for (MaterialId m = 0; m < labels_.size(); ++m) {
+  for (std::size_t n = 0; n < labels_.size(); ++n) {
+    const auto m = static_cast<MaterialId>(n);
     if (m != a && m != b && distance_of(m, foot) > here + scale_mm()) {
       return {.deviation_mm = kInfinity};
     }

@@ -8,6 +8,8 @@
 #include <set>
 #include <vector>
 
+#include "mesher/core/label_image.hpp"
+
 namespace cbc3d {
 namespace {
 
@@ -35,22 +37,23 @@ TEST(SimplePoint, AnEndIsAndABridgeIsNot) {
 
 /// Vertices less edges plus faces less voxels of the open set of voxels: that of connections across faces.
 int euler(const VoxelNeighbourhood& around) {
+  const ImageFrame cube{.size = {3, 3, 3}};
   const auto has = [&](int x, int y, int z) {
-    return x >= 0 && y >= 0 && z >= 0 && x < 3 && y < 3 && z < 3 &&
-           around[static_cast<std::size_t>(x + 3 * y + 9 * z)];
+    return cube.contains(x, y, z) && around[cube.offset(x, y, z)];
   };
   int chi = 0;
-  for (int z = 0; z < 3; ++z)
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x)
-        for (int block = 0; block < 8; ++block) {  // voxel, faces, edges and corners towards +
-          bool all = true;
-          for (int part = 0; part < 8; ++part)
-            all = all &&
-                  ((part & ~block) != 0 || has(x + (part & 1), y + (part >> 1 & 1), z + (part >> 2 & 1)));
-          const int dimensions = (block & 1) + (block >> 1 & 1) + (block >> 2);
-          chi += all ? (dimensions % 2 == 0 ? 1 : -1) : 0;
-        }
+  for (std::size_t v = 0; v < around.size(); ++v) {
+    const auto [x, y, z] = cube.index_of(v);
+    for (int block = 0; block < 8; ++block) {  // voxel, faces, edges and corners towards +
+      bool all = true;
+      for (int part = 0; part < 8; ++part) {
+        const bool within = (part & ~block) == 0;
+        all = all && (!within || has(x + (part & 1), y + (part >> 1 & 1), z + (part >> 2 & 1)));
+      }
+      const int dimensions = (block & 1) + (block >> 1 & 1) + (block >> 2);
+      chi += all ? (dimensions % 2 == 0 ? 1 : -1) : 0;
+    }
+  }
   return chi;
 }
 

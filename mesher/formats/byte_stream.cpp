@@ -52,10 +52,25 @@ class FileStream : public ByteStream {
   std::uint64_t left_;
 };
 
-/// What decompressors share: the compressed bytes, piece by piece.
+/// What decompressors share: the compressed bytes, piece by piece, and streams that follow each other.
 class PackedStream : public ByteStream {
+ public:
+  std::size_t read(std::span<std::uint8_t> out) final {
+    std::size_t done = 0;
+    while (done < out.size() && has_more()) {
+      done += unpack_into(out.subspan(done));
+    }
+    return done;
+  }
+
  protected:
   explicit PackedStream(std::unique_ptr<FileStream> from) : from_(std::move(from)), piece_(kPiece) {}
+
+  /// Decompresses some bytes and calls end_stream() where the stream has ended; returns the bytes written.
+  virtual std::size_t unpack_into(std::span<std::uint8_t> out) = 0;
+  /// Prepares for a stream that begins with this byte; false when what follows is none.
+  virtual bool begin_next(std::uint8_t first) = 0;
+  void end_stream() { ended_ = true; }
 
   /// The compressed bytes that are at hand, more of them where there are none; empty at the end.
   std::span<std::uint8_t> available() {
@@ -79,9 +94,19 @@ class PackedStream : public ByteStream {
   }
 
  private:
+  /// True when there is something to decompress.
+  bool has_more() {
+    if (ended_) {
+      const auto bytes = available();
+      ended_ = bytes.empty() || !begin_next(bytes[0]);
+    }
+    return !ended_;
+  }
+
   std::unique_ptr<FileStream> from_;
   std::vector<std::uint8_t> piece_;
   std::size_t begin_ = 0, end_ = 0;
+  bool ended_ = false;
 };
 
 class ZlibStream : public PackedStream {
@@ -96,25 +121,9 @@ class ZlibStream : public PackedStream {
   ZlibStream(const ZlibStream&) = delete;
   ZlibStream& operator=(const ZlibStream&) = delete;
 
-  std::size_t read(std::span<std::uint8_t> out) override {
-    std::size_t done = 0;
-    while (done < out.size() && next_member()) {
-      done += inflate_into(out.subspan(done));
-    }
-    return done;
-  }
-
  private:
-  /// True when there is something to decompress.
-  bool next_member() {
-    if (!ended_) {
-      return true;
-    }
-    const auto bytes = available();
-    if (bytes.empty()) {
-      return false;
-    }
-    if (bytes[0] != 0x1F) {
+  bool begin_next(std::uint8_t first) override {
+    if (first != 0x1F) {
       if (only_zeros_follow()) {
         return false;
       }
@@ -122,12 +131,10 @@ class ZlibStream : public PackedStream {
           "its compressed data are followed by bytes that are none; it is damaged, copy it again");
     }
     inflateReset(&stream_);
-    ended_ = false;
     return true;
   }
 
-  /// One call of inflate; returns the bytes written.
-  std::size_t inflate_into(std::span<std::uint8_t> out) {
+  std::size_t unpack_into(std::span<std::uint8_t> out) override {
     const auto bytes = available();
     stream_.next_in = bytes.data();
     stream_.avail_in = static_cast<uInt>(bytes.size());
@@ -137,7 +144,7 @@ class ZlibStream : public PackedStream {
     const int result = inflate(&stream_, Z_NO_FLUSH);
     consume(bytes.size() - stream_.avail_in);
     if (result == Z_STREAM_END) {
-      ended_ = true;
+      end_stream();
     } else if (result == Z_BUF_ERROR && bytes.empty()) {
       throw FormatError("its compressed data break off (the file is truncated); copy it again");
     } else if (result != Z_OK && result != Z_BUF_ERROR) {
@@ -149,7 +156,6 @@ class ZlibStream : public PackedStream {
   }
 
   z_stream stream_{};
-  bool ended_ = false;
 };
 
 class BzipStream : public PackedStream {
@@ -159,29 +165,16 @@ class BzipStream : public PackedStream {
   BzipStream(const BzipStream&) = delete;
   BzipStream& operator=(const BzipStream&) = delete;
 
-  std::size_t read(std::span<std::uint8_t> out) override {
-    std::size_t done = 0;
-    while (done < out.size() && next_stream()) {
-      done += unpack_into(out.subspan(done));
-    }
-    return done;
-  }
-
  private:
   void begin() {
     stream_ = {};
     if (BZ2_bzDecompressInit(&stream_, 0, 0) != BZ_OK) {
       throw std::bad_alloc();
     }
-    ended_ = false;
   }
 
-  bool next_stream() {
-    if (!ended_) {
-      return true;
-    }
-    const auto bytes = available();
-    if (bytes.empty() || (bytes[0] == 0 && only_zeros_follow())) {
+  bool begin_next(std::uint8_t first) override {
+    if (first == 0 && only_zeros_follow()) {
       return false;
     }
     BZ2_bzDecompressEnd(&stream_);
@@ -189,7 +182,7 @@ class BzipStream : public PackedStream {
     return true;
   }
 
-  std::size_t unpack_into(std::span<std::uint8_t> out) {
+  std::size_t unpack_into(std::span<std::uint8_t> out) override {
     const auto bytes = available();
     if (bytes.empty()) {
       throw FormatError("its compressed data break off (the file is truncated); copy it again");
@@ -201,15 +194,15 @@ class BzipStream : public PackedStream {
     stream_.avail_out = room;
     const int result = BZ2_bzDecompress(&stream_);
     consume(bytes.size() - stream_.avail_in);
-    ended_ = result == BZ_STREAM_END;
-    if (result != BZ_OK && !ended_) {
+    if (result == BZ_STREAM_END) {
+      end_stream();
+    } else if (result != BZ_OK) {
       throw FormatError("its compressed data are damaged (bzip2 fails); copy it again");
     }
     return room - stream_.avail_out;
   }
 
   bz_stream stream_{};
-  bool ended_ = false;
 };
 
 }  // namespace

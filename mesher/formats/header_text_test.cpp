@@ -11,7 +11,7 @@ namespace {
 
 TEST(HeaderText, ANumberIsAllOfItsText) {
   EXPECT_EQ(to_number(" +1.5e3 "), 1500);
-  EXPECT_TRUE(std::isnan(to_number("nan").value()));
+  EXPECT_TRUE(std::isnan(to_number("nan").value_or(0)));
   EXPECT_FALSE(to_number("1.5x").has_value());
   EXPECT_FALSE(to_number("").has_value());
   EXPECT_FALSE(to_integer("8.9").has_value());

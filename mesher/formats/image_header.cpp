@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/formats/component_type.hpp"
 #include "mesher/formats/header_text.hpp"
 
 namespace cbc3d::formats {
@@ -18,20 +19,7 @@ std::string triple_text(const Triple& v) {
 }  // namespace
 
 std::size_t bytes_of(Component component) {
-  switch (component) {
-    case Component::uint8:
-    case Component::int8:
-      return 1;
-    case Component::uint16:
-    case Component::int16:
-      return 2;
-    case Component::uint64:
-    case Component::int64:
-    case Component::float64:
-      return 8;
-    default:
-      return 4;
-  }
+  return with_type(component, [](const auto* type) { return sizeof(*type); });
 }
 
 std::size_t voxel_bytes(const ImageHeader& header) {

@@ -311,7 +311,8 @@ void take_nrrd_frame(const NrrdFields& fields, const std::vector<std::int64_t>& 
     return take_directions(fields, *directions, *space, sizes, image);
   }
   take_spacings(fields, sizes, image);
-  if (const std::string* const origin = space ? find(fields, "spaceorigin") : nullptr) {
+  const std::string* const origin = find(fields, "spaceorigin");
+  if (space && origin != nullptr) {
     const auto at = vector_of("space origin", *origin, space->dimension);
     for (std::size_t row = 0; row < 3; ++row) {
       image.origin_mm[row] = at[row] * space->signs[row];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesher/formats/byte_stream.hpp"
+#include "mesher/formats/component_type.hpp"
 #include "mesher/formats/header_text.hpp"
 #include "mesher/formats/inflate.hpp"
 
@@ -174,28 +175,14 @@ void parse_small_values(const std::string& text, std::span<std::uint8_t> out) {
 }
 
 void parse_text(Component component, const std::string& text, std::span<std::uint8_t> out) {
-  switch (component) {
-    case Component::uint8:
-      return parse_small_values<std::uint8_t>(text, out);
-    case Component::int8:
-      return parse_small_values<std::int8_t>(text, out);
-    case Component::uint16:
-      return parse_values<std::uint16_t>(text, out);
-    case Component::int16:
-      return parse_values<std::int16_t>(text, out);
-    case Component::uint32:
-      return parse_values<std::uint32_t>(text, out);
-    case Component::int32:
-      return parse_values<std::int32_t>(text, out);
-    case Component::uint64:
-      return parse_values<std::uint64_t>(text, out);
-    case Component::int64:
-      return parse_values<std::int64_t>(text, out);
-    case Component::float32:
-      return parse_values<float>(text, out);
-    case Component::float64:
-      return parse_values<double>(text, out);
-  }
+  with_type(component, [&](const auto* type) {
+    using T = std::remove_const_t<std::remove_pointer_t<decltype(type)>>;
+    if constexpr (sizeof(T) == 1) {
+      parse_small_values<T>(text, out);
+    } else {
+      parse_values<T>(text, out);
+    }
+  });
 }
 
 void parse_hex(const std::string& text, std::span<std::uint8_t> out) {

@@ -374,7 +374,6 @@ class Repair {
       of_class[components.class_of[c]].push_back(c);
     }
     std::vector<std::uint8_t> remove(components.class_of.size(), 0);
-    std::size_t removed = 0;
     for (std::size_t k = 1; k < of_class.size(); ++k) {
       auto& list = of_class[k];
       std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -383,17 +382,10 @@ class Repair {
       for (std::size_t place = report_.labels[k].image_regions; place < list.size(); ++place) {
         if (components.volume[list[place]] < options_.small_component * total[k]) {
           remove[list[place]] = 1;
-          ++removed;
         }
       }
     }
-    if (removed > 0) {
-      touched_.clear();
-      relabel_components(components, remove);
-      keep_one_face_rule();
-      report_.components_removed += removed;
-    }
-    return removed;
+    return remove_components(components, remove);
   }
 
   /// Relabels components, background's too, that are smaller than an eighth of a voxel or of which no tet has
@@ -413,6 +405,11 @@ class Repair {
         is_crumb = classes_.of_material[image_.at_local(centroid)] == class_of_tet_[t] ? 0 : 1;
       }
     }
+    return remove_components(components, remove);
+  }
+
+  /// Relabels the marked components; returns how many there are.
+  std::size_t remove_components(const Components& components, const std::vector<std::uint8_t>& remove) {
     const auto removed = static_cast<std::size_t>(std::count(remove.begin(), remove.end(), 1));
     if (removed > 0) {
       touched_.clear();

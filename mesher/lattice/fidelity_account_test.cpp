@@ -85,9 +85,9 @@ TEST(FidelityAccount, CountsAsOneThatLooksAtEveryVoxel) {
     Labelled mesh(noisy_blocks_image(materials, 5), 6);
     FidelityAccount account(mesh.image, mesh.raster, count_materials(mesh.image).count);
     FidelityAccount::Changes changes = account.no_changes();
-    std::vector<ForeignMaterials> foreign;
+    std::vector<ForeignMaterials> foreign(mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      foreign.push_back(account.enter(mesh.corners(t), mesh.materials[t], changes));
+      foreign[t] = account.enter(mesh.corners(t), mesh.materials[t], changes);
     }
     account.add(changes);
     expect_counted_right(mesh, account);

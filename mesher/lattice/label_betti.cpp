@@ -176,6 +176,7 @@ std::vector<LabelDifference> label_differences(const std::map<Label, Betti>& in_
 
 std::vector<Label> labels_of(const std::vector<LabelDifference>& differences) {
   std::vector<Label> labels;
+  labels.reserve(differences.size());
   for (const LabelDifference& difference : differences) {
     labels.push_back(difference.label);
   }

@@ -346,17 +346,18 @@ class Refiner {
   /// Where a label of the repaired mesh has another topology than in the image, voxels are taken as they are
   /// on a finer lattice. Returns how many tets are to be split or labelled anew.
   std::size_t mark_topology_differences() {
-    if (!options_.keep_topology || betti_of_image_->unlike_labels(result_.mesh, points_).empty()) {
+    if (!options_.keep_topology || !betti_of_image_ || !parts_ ||
+        betti_of_image_->unlike_labels(result_.mesh, points_).empty()) {
       return 0;
     }
+    const ImageBetti& of_image = *betti_of_image_;
+    const PartRaster& parts = *parts_;
     mark_what_repair_loses(true);
-    const std::vector<MisplacedPart> misplaced = parts_->misplaced(lattice_, result_.mesh);
+    const std::vector<MisplacedPart> misplaced = parts.misplaced(lattice_, result_.mesh);
     const auto places =
-        find_topology_differences(image_, misplaced, betti_of_image_->unlike_labels(result_.mesh, points_));
-    if (!exact_) {
-      exact_.emplace(image_.frame);
-    }
-    exact_->add(places, voxels_of_parts(image_.frame, misplaced));
+        find_topology_differences(image_, misplaced, of_image.unlike_labels(result_.mesh, points_));
+    ExactVoxels& exact = exact_ ? *exact_ : exact_.emplace(image_.frame);
+    exact.add(places, voxels_of_parts(image_.frame, misplaced));
     std::size_t changed = 0;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : changed)
     for (std::size_t t = 0; t < judged_.size(); ++t) {
@@ -369,7 +370,7 @@ class Refiner {
   /// split.
   bool take_voxels(std::size_t t) {
     const Vec3 centroid = centroid_of(t);
-    if (!exact_->holds(centroid)) {
+    if (!exact_ || !parts_ || !exact_->holds(centroid)) {
       return false;
     }
     const MaterialId now = image_.at_local(centroid);

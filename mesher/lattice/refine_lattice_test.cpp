@@ -95,11 +95,11 @@ std::ptrdiff_t euler_of_tets(const CandidateMesh& mesh, MaterialId label) {
 /// The same of the label's voxels as closed cubes.
 std::ptrdiff_t euler_of_voxels(const LabelImage& image, MaterialId label) {
   std::set<Index3> cells;  // of the doubled grid: odd coordinates are inside along their axis
-  for (int k = 0; k < image.frame.size[2]; ++k)
-    for (int j = 0; j < image.frame.size[1]; ++j)
-      for (int i = 0; i < image.frame.size[0]; ++i)
-        for (int part = 0; part < 27 && image.at(i, j, k) == label; ++part)
-          cells.insert({2 * i + part % 3, 2 * j + part / 3 % 3, 2 * k + part / 9});
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    const auto [i, j, k] = image.frame.index_of(v);
+    for (int part = 0; part < 27 && image.voxels[v] == label; ++part)
+      cells.insert({2 * i + part % 3, 2 * j + part / 3 % 3, 2 * k + part / 9});
+  }
   std::ptrdiff_t chi = 0;
   for (const auto& [x, y, z] : cells) chi += (x + y + z) % 2 == 0 ? 1 : -1;
   return chi;

@@ -48,12 +48,13 @@ TEST(VoxelRaster, PartsOfVoxelsAreThoseOfTheFinerImage) {
   refine_at_random(lattice, 2, 5, 10);
   const LatticeTets tets = extract_tets(lattice);
   const VoxelRaster raster(image.frame, lattice.frame, {2, 2, 4});
-  std::vector<int> hits(image.voxels.size() * 16, 0);
+  const ImageFrame finer{.size = {16, 14, 24}};
+  std::vector<int> hits(finer.voxel_count(), 0);
   for (const auto& n : tets.nodes) {
     raster.for_each_row(
         {lattice.points[n[0]], lattice.points[n[1]], lattice.points[n[2]], lattice.points[n[3]]},
         [&](int j, int k, int begin, int end) {
-          for (int i = begin; i < end; ++i) ++hits[static_cast<std::size_t>((k * 14 + j) * 16 + i)];
+          for (int i = begin; i < end; ++i) ++hits[finer.offset(i, j, k)];
         });
   }
   EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), static_cast<std::ptrdiff_t>(hits.size()));

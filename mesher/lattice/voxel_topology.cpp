@@ -42,6 +42,7 @@ class Transition {
       std::reverse(waiting.begin(), waiting.end());  // a chain that goes the other way takes one pass too
     }
     std::vector<MisplacedPart> left;
+    left.reserve(waiting.size());
     for (const std::size_t i : waiting) {
       left.push_back(misplaced_[i]);
     }

@@ -11,9 +11,9 @@ namespace cbc3d {
 namespace {
 
 std::vector<std::uint8_t> values_of(const LabelImage& image) {
-  std::vector<std::uint8_t> values;
-  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
-    values.push_back(static_cast<std::uint8_t>(image.labels[image.voxels[v]]));
+  std::vector<std::uint8_t> values(image.voxels.size());
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    values[v] = static_cast<std::uint8_t>(image.labels[image.voxels[v]]);
   }
   return values;
 }

@@ -329,6 +329,7 @@ std::vector<Grey::IndexType> indices_at(const Grey& image, const std::vector<Vec
     throw InputError(std::string("no ") + what + " is given; give at least one");
   }
   std::vector<Grey::IndexType> indices;
+  indices.reserve(positions.size());
   for (const Vec3& p : positions) {
     indices.push_back(index_at(image, p, what));
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/core/mesh.hpp"
+#include "mesher/testing/cube_corners.hpp"
 #include "mesher/topology/tet_adjacency.hpp"
 
 namespace cbc3d::testing {
@@ -17,13 +18,8 @@ struct KuhnBox {
   TetNodes tets;
 
   explicit KuhnBox(int n) {
-    const auto at = [&](const Index3& p) {
-      return static_cast<VertexId>((p[2] * (n + 1) + p[1]) * (n + 1) + p[0]);
-    };
-    for (int v = 0; v < (n + 1) * (n + 1) * (n + 1); ++v) {
-      points.push_back({static_cast<double>(v % (n + 1)), static_cast<double>(v / (n + 1) % (n + 1)),
-                        static_cast<double>(v / ((n + 1) * (n + 1)))});
-    }
+    points = cube_corners(n);
+    const auto at = [n](const Index3& p) { return cube_corner(n, p[0], p[1], p[2]); };
     constexpr std::array<std::array<std::size_t, 3>, 6> kOrders = {
         {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
     for (int cube = 0; cube < n * n * n; ++cube) {

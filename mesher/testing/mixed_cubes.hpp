@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mesher/testing/cube_corners.hpp"
 #include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d::testing {
@@ -12,11 +13,8 @@ namespace cbc3d::testing {
 /// on the outside is two tets. Materials by the cube's first index: 1 below n / 2, 2 from there on.
 inline MaterialMesh mixed_cubes(int n) {
   MaterialMesh mesh;
-  const auto at = [&](int i, int j, int k) { return static_cast<VertexId>((k * (n + 1) + j) * (n + 1) + i); };
-  for (int v = 0; v < (n + 1) * (n + 1) * (n + 1); ++v) {
-    mesh.points.push_back({static_cast<double>(v % (n + 1)), static_cast<double>(v / (n + 1) % (n + 1)),
-                           static_cast<double>(v / ((n + 1) * (n + 1)))});
-  }
+  mesh.points = cube_corners(n);
+  const auto at = [n](int i, int j, int k) { return cube_corner(n, i, j, k); };
   // The sides of a hex, counter-clockwise seen from within, with the axis that they are across and the end
   // there.
   struct Side {

@@ -69,8 +69,8 @@ std::multiset<std::vector<double>> tets_by_place(const MaterialMesh& mesh) {
 
 TEST(MaterialMesh, BackgroundGoesWithTheVerticesThatItAloneHas) {
   const testing::KuhnBox box(3);
-  std::vector<MaterialId> materials;
-  for (std::size_t t = 0; t < box.tets.size(); ++t) materials.push_back(box.centroid(t).x < 1 ? 0 : 1);
+  std::vector<MaterialId> materials(box.tets.size());
+  for (std::size_t t = 0; t < box.tets.size(); ++t) materials[t] = box.centroid(t).x < 1 ? 0 : 1;
   const MaterialMesh kept = discard_background(box.points, box.tets, materials);
   EXPECT_EQ(kept.tets.size(), 6U * 18);
   EXPECT_EQ(kept.points.size(), 3U * 16);

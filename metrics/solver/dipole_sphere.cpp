@@ -116,6 +116,7 @@ DipoleSphereFigures solve_dipole_sphere(const FiniteElementMesh& mesh, const Dip
   }
   const std::vector<double> conductivities = layer_conductivities(options);
   std::vector<double> radii;
+  radii.reserve(options.layers.size());
   for (const Layer& layer : options.layers) {
     radii.push_back(layer.outer_radius_mm);
   }

@@ -38,6 +38,7 @@ void split_boundary(FiniteElementMesh& mesh, const PressurisedSphereOptions& opt
 
 Formulas lame_formulas(const FiniteElementMesh& mesh, const PressurisedSphereOptions& options) {
   std::vector<ElasticLayer> layers;
+  layers.reserve(options.layers.size());
   for (const Layer& layer : options.layers) {
     layers.push_back({layer.outer_radius_mm, options.young.at(layer.label, "Young's modulus"),
                       options.poisson_ratio.at(layer.label, "Poisson's ratio")});

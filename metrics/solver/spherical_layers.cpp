@@ -125,6 +125,7 @@ std::vector<RadialDisplacement> pressurised_layers(double cavity_radius, double 
   }
   const Eigen::VectorXd found = conditions.fullPivLu().solve(right_side);
   std::vector<RadialDisplacement> result;
+  result.reserve(layers.size());
   for (Eigen::Index layer = 0; layer < count; ++layer) {
     result.push_back({found[2 * layer], found[2 * layer + 1]});
   }

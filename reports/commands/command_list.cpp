@@ -59,14 +59,15 @@ void list_cases(const ListOptions& options) {
     }
     std::cout << '\n';
     if (subject.image_file) {
-      std::cout << "    image: " << *subject.image_file << " (" << subject.image_source << ")\n";
+      const std::string& file = subject.image_file.value();
+      std::cout << "    image: " << file << " (" << subject.image_source << ")\n";
       bool found = false;
       for (const auto& folder : folders) {
-        found = found || std::filesystem::exists(folder / *subject.image_file);
+        found = found || std::filesystem::exists(folder / file);
       }
       std::cout << (found ? "" : "    not found in the data folders: will be skipped\n");
     } else if (subject.phantom) {
-      std::cout << "    phantom: " << subject.phantom->name << '\n';
+      std::cout << "    phantom: " << subject.phantom.value().name << '\n';
     }
   }
 }

@@ -61,8 +61,10 @@ void write_cube(int n, const std::filesystem::path& image_file, const std::files
   image.voxels.assign(image.frame.voxel_count(), 1);
   write_label_image(image, image_file);
   Mesh mesh;
-  for (int v = 0; v < (n + 1) * (n + 1) * (n + 1); ++v) {
-    mesh.points.push_back({v % (n + 1) - .5, v / (n + 1) % (n + 1) - .5, v / (n + 1) / (n + 1) - .5});
+  const ImageFrame corners{.size = {n + 1, n + 1, n + 1}};
+  for (std::size_t v = 0; v < corners.voxel_count(); ++v) {
+    const auto [i, j, k] = corners.index_of(v);
+    mesh.points.push_back({i - .5, j - .5, k - .5});
   }
   for (std::size_t voxel = 0; voxel < image.voxels.size(); ++voxel) {
     const Index3 low = image.frame.index_of(voxel);

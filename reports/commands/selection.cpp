@@ -63,7 +63,7 @@ std::vector<cases::Case> chosen_cases(const Selection& selection, const std::vec
 }
 
 std::vector<baselines::Adapter> chosen_meshers(const Selection& selection) {
-  const std::vector<baselines::Adapter> all = all_meshers(selection.externals);
+  std::vector<baselines::Adapter> all = all_meshers(selection.externals);
   if (selection.meshers.empty()) {
     return all;
   }

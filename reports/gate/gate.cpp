@@ -93,8 +93,8 @@ void check_job(const Json& job, const std::string& key, const fs::path& file) {
 Json baseline_job(const GateJob& job) {
   std::map<std::string, double> figures;
   for (const MetricId id : gated_metrics()) {
-    if (job.figures[id]) {
-      figures[std::string(metric(id).key)] = *job.figures[id];
+    if (const auto& figure = job.figures[id]) {
+      figures[std::string(metric(id).key)] = *figure;
     }
   }
   Json entry = job.identity;
@@ -178,11 +178,11 @@ void compare_figures(const GateJob& job, const Json& figures, const Json& tolera
       continue;
     }
     const double was = figures[key].get<double>();
+    const auto& is = job.figures[id];
     verdict.checks.push_back(
-        job.figures[id] ? check_figure(job.name, row, was, *job.figures[id],
-                                       allowed_change(row, was, job.deterministic, tolerances))
-                        : fallen(job.name, key,
-                                 std::string(words(row)) + " was " + with_unit(was, row) + ", is not there"));
+        is ? check_figure(job.name, row, was, *is, allowed_change(row, was, job.deterministic, tolerances))
+           : fallen(job.name, key,
+                    std::string(words(row)) + " was " + with_unit(was, row) + ", is not there"));
   }
 }
 

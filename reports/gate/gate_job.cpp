@@ -21,8 +21,8 @@ metrics::Figures joint_figures(const Runs& runs) {
   for (const MetricId id : metrics::all_metrics()) {
     std::vector<double> values;
     for (const JobResult* run : runs) {
-      if (run->figures[id]) {
-        values.push_back(*run->figures[id]);
+      if (const auto& figure = run->figures[id]) {
+        values.push_back(*figure);
       }
     }
     if (!values.empty()) {
@@ -127,6 +127,7 @@ std::vector<GateJob> gate_jobs(const std::vector<JobResult>& results) {
     runs[name].push_back(&result);
   }
   std::vector<GateJob> jobs;
+  jobs.reserve(order.size());
   for (const std::string& name : order) {
     jobs.push_back(joint(runs.at(name)));
   }

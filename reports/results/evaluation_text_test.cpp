@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace cbc3d::reports {
 namespace {
 
@@ -52,19 +55,21 @@ bool has(const std::string& text, const std::string& part) {
 
 TEST(EvaluationText, SaysFiguresLabelsTopologyAndPlaces) {
   const std::string text = evaluation_text(evaluation());
-  for (const char* part :
-       {"Counts\n  vertices: 18,130\n", "  mean ratio, median: 0.485\n",
-        "  share of elements whose mean ratio is below .3: 12.00 %\n", "  edges at a vertex, largest: 125\n",
-        "  angle between neighbouring facets, rms: 28.0 deg\n", "certain: from 2.134 to 2.136 mm\n",
-        "  conforming: yes\n",
-        "Labels: the worst of 2 by Dice and volume\n  label 1: Dice 0.5400, volume error +0.03 %, 900 "
-        "voxels\n"
-        "  label 8: Dice 0.0000, volume error -100.00 %, 1 voxel\n",
-        "Topology, mesh less image\n  label 1: +2 tunnels\n  label 8: -1 parts\n"
-        "  tunnel added, label 1, at (4, 5, 6) mm\n  part lost, label 8, at (0, 0, 0.25) mm\n"
-        "  and 5 more places\n",
-        "Sharp places that the image does not ask for\n  pit, label 1, at (1.5, 2, 3) mm\n",
-        "Faults: 1\n  label 8 of the image is in no cell\n"}) {
+  const std::string labels =
+      "Labels: the worst of 2 by Dice and volume\n"
+      "  label 1: Dice 0.5400, volume error +0.03 %, 900 voxels\n"
+      "  label 8: Dice 0.0000, volume error -100.00 %, 1 voxel\n";
+  const std::string places =
+      "Topology, mesh less image\n  label 1: +2 tunnels\n  label 8: -1 parts\n"
+      "  tunnel added, label 1, at (4, 5, 6) mm\n  part lost, label 8, at (0, 0, 0.25) mm\n"
+      "  and 5 more places\n";
+  for (const std::string& part : std::vector<std::string>{
+           "Counts\n  vertices: 18,130\n", "  mean ratio, median: 0.485\n",
+           "  share of elements whose mean ratio is below .3: 12.00 %\n",
+           "  edges at a vertex, largest: 125\n", "  angle between neighbouring facets, rms: 28.0 deg\n",
+           "certain: from 2.134 to 2.136 mm\n", "  conforming: yes\n", labels, places,
+           "Sharp places that the image does not ask for\n  pit, label 1, at (1.5, 2, 3) mm\n",
+           "Faults: 1\n  label 8 of the image is in no cell\n"}) {
     EXPECT_TRUE(has(text, part)) << part << "\nis not in\n" << text;
   }
   EXPECT_FALSE(has(text, "edge ratio")) << "a figure that is null is left out";

@@ -34,12 +34,14 @@ const Json& object_or_empty(const Json& value) {
   static const Json empty = Json::object();
   return value.is_object() ? value : empty;
 }
+const Json& object_or_empty(Json&&) = delete;  // what it returns would be gone
 
 /// The value where it is a list, else an empty one.
 const Json& list_or_empty(const Json& value) {
   static const Json empty = Json::array();
   return value.is_array() ? value : empty;
 }
+const Json& list_or_empty(Json&&) = delete;
 
 std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : std::string();

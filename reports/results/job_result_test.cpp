@@ -53,7 +53,7 @@ TEST(JobResult, IsDecodedFromItsLine) {
   EXPECT_EQ(result.stage_seconds.front().first, "b");
   EXPECT_EQ(result.stage("a"), 1.5);
   EXPECT_FALSE(result.stage("c").has_value());
-  EXPECT_EQ(result.image->size, (std::vector<std::int64_t>{8, 9, 10}));
+  EXPECT_EQ(result.image.value().size, (std::vector<std::int64_t>{8, 9, 10}));
   EXPECT_EQ(result.voxel_surface[metric_id("shape.normal_deviation_deg")], 45);
   EXPECT_EQ(result.labels_with_shape, 2U);
   EXPECT_FALSE(result.mesher_is_deterministic);

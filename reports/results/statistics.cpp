@@ -14,9 +14,9 @@ double median(std::vector<double> values) {
 double spread(const std::vector<double>& values) {
   constexpr double kNormal = 1.4826;
   const double centre = median(values);
-  std::vector<double> deviations;
-  for (const double value : values) {
-    deviations.push_back(std::abs(value - centre));
+  std::vector<double> deviations(values);
+  for (double& value : deviations) {
+    value = std::abs(value - centre);
   }
   return kNormal * median(deviations);
 }

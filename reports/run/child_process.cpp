@@ -215,7 +215,7 @@ std::string printable(const std::string& text) {
 }
 
 std::string failure_text(const ChildResult& child, double timeout_s, std::int64_t memory_limit_bytes) {
-  const std::string line = printable(last_line(child.stderr_tail));
+  std::string line = printable(last_line(child.stderr_tail));
   switch (child.end) {
     case ChildEnd::timeout:
       return "not done after " + number_text(timeout_s) + " s";

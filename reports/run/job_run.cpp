@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <optional>
 
 #include "cases/core/sha256.hpp"
@@ -279,7 +280,9 @@ class Children {
     if (!succeeded(child)) {
       try {
         write_text_file(files_.log, child.stderr_tail);
-      } catch (const std::exception&) {  // a mesher may have filled the disk: its mesh has to go all the same
+      } catch (const std::exception& error) {
+        // A mesher may have filled the disk: its mesh has to go all the same.
+        std::cerr << "warning: " << error.what() << '\n';
       }
     }
     return child;

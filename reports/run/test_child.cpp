@@ -41,7 +41,7 @@ int spawn(const std::string& file, bool stay) {
     sleep_long();
     std::_Exit(0);
   }
-  std::ofstream(file) << process << std::endl;
+  std::ofstream(file) << process << '\n' << std::flush;
   if (stay) {
     sleep_long();
   }
@@ -53,7 +53,7 @@ int spawn_daemon(const std::string& file) {
   const pid_t process = ::fork();
   if (process == 0) {
     ::setsid();
-    std::ofstream(file) << ::getpid() << std::endl;
+    std::ofstream(file) << ::getpid() << '\n' << std::flush;
     sleep_long();
     std::_Exit(0);
   }

@@ -97,6 +97,7 @@ std::vector<SweepPoint> sweep_points(const std::vector<JobResult>& results) {
     (found == groups.end() ? *groups.insert(groups.end(), Runs{}) : *found).push_back(&result);
   }
   std::vector<SweepPoint> points;
+  points.reserve(groups.size());
   for (const Runs& group : groups) {
     points.push_back(point_of(group));
   }

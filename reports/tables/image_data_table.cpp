@@ -50,7 +50,7 @@ Table image_data_table(const TableInput& input) {
       return result.case_name == name && result.image.has_value();
     });
     if (read != input.results.end()) {
-      table.rows.push_back(image_row(name, *read->image, find_case(input.cases, name)));
+      table.rows.push_back(image_row(name, read->image.value(), find_case(input.cases, name)));
     } else {
       table.rows.push_back({name, "not read: no mesh of it was evaluated", 0, {{}, {}, {}, {}}});
     }

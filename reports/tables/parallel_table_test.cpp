@@ -38,9 +38,9 @@ TEST(ParallelTable, StagesAndTheWholeJobAreComparedWithOneThread) {
                                       "serial share, 2 threads (%)", "speed-up, 4 threads",
                                       "serial share, 4 threads (%)", "speed-up asked at 2 threads"}));
   const auto row = [&](const std::string& stage) {
-    std::vector<std::string> texts;
-    for (std::size_t column = 0; column < table.columns.size(); ++column) {
-      texts.push_back(text_in(table, "box, cbc3d", stage, column));
+    std::vector<std::string> texts(table.columns.size());
+    for (std::size_t column = 0; column < texts.size(); ++column) {
+      texts[column] = text_in(table, "box, cbc3d", stage, column);
     }
     return texts;
   };

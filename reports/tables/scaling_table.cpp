@@ -30,7 +30,7 @@ struct Series {
 double voxel_count(const cases::Case& subject) {
   double voxels = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    voxels *= static_cast<double>(subject.phantom->size[axis]) * subject.derive.repeat[axis];
+    voxels *= static_cast<double>(subject.phantom.value().size[axis]) * subject.derive.repeat[axis];
   }
   return voxels;
 }
@@ -84,7 +84,7 @@ Series series_of(const Columns& columns, const std::string& column, const std::v
       const auto runs = columns.runs(subject.name, column);
       const auto elements = median_of(runs, shown_figure(metric_id("elements")));
       if (elements.value_or(0) > 0 && median_of(runs, seconds)) {
-        series.sizes.push_back({voxel_count(subject), *elements, runs});
+        series.sizes.push_back({voxel_count(subject), elements.value(), runs});
       }
     }
   }

@@ -81,7 +81,7 @@ Cell own_cell(const Compared& all, const Group& group, const std::string& column
 /// The figure at exactly the budget, where there is one.
 Cell cell_at_budget(const Compared& all, const Group& group, const std::string& column, MetricId id) {
   const FrontCurve curve = front_curve(all.results, all.columns, group.case_name, column, id);
-  const auto value = curve.at(static_cast<double>(*group.budget));
+  const auto value = curve.at(static_cast<double>(group.budget.value()));
   const Cell own = own_cell(all, group, column, id);
   Cell cell = value ? number_cell(*value, -1) : Cell{};
   cell.reason = own.reason;
@@ -110,12 +110,12 @@ class Comparison {
 
   [[nodiscard]] Row row() const {
     const std::string name = metrics::words(metric_.purpose) + (": " + title(metric_));
-    if (!is_measured() || *best_ > 0) {
+    if (!is_measured() || best_.value() > 0) {
       Row row{case_name_, name, 2, {}};
       for (const Cell& cell : cells_) row.cells.push_back(multiple_of_best(cell));
       return row;
     }
-    const std::string best = *best_ == 0 ? "0" : with_unit(*best_, metric_);
+    const std::string best = best_.value() == 0 ? "0" : with_unit(best_.value(), metric_);
     return {case_name_, name + ", itself (the best is " + best + ")", metric_.decimals, cells_};
   }
 
@@ -152,7 +152,7 @@ class Comparison {
   }
 
   [[nodiscard]] double multiple(double value) const {
-    return is_lower_worse() ? *best_ / value : value / *best_;
+    return is_lower_worse() ? best_.value() / value : value / best_.value();
   }
 
   [[nodiscard]] Cell multiple_of_best(const Cell& cell) const {

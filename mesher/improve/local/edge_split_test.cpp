@@ -40,10 +40,10 @@ TEST(EdgeSplit, GoodTetsAndEdgesBetweenMaterialsStay) {
   EXPECT_EQ(good.mesh.vertex_count(), 8U);
   // The same long edge, now where two materials meet.
   const TetComplex whole = testing::tets_around_edge(4, 6);
-  std::vector<Vec3> points;
-  TetNodes tets;
-  for (VertexId v = 0; v < whole.vertex_count(); ++v) points.push_back(whole.point(v));
-  for (TetId t = 0; t < whole.tet_slots(); ++t) tets.push_back(whole.nodes(t));
+  std::vector<Vec3> points(whole.vertex_count());
+  TetNodes tets(whole.tet_slots());
+  for (VertexId v = 0; v < whole.vertex_count(); ++v) points[v] = whole.point(v);
+  for (TetId t = 0; t < whole.tet_slots(); ++t) tets[t] = whole.nodes(t);
   Patch parted =
       testing::make_patch(TetComplex(points, tets, {1, 1, 2, 2}, std::vector<std::uint8_t>(6, 0)), domain);
   EXPECT_EQ(split_edges(parted, kGoal), 0U);

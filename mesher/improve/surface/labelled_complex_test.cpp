@@ -29,8 +29,8 @@ const std::vector<MaterialId> kLabelOf = {0, 1, 2, 2};
 
 /// The facets of a label's surface at a vertex, as edges of its link, are one closed curve or none.
 bool is_manifold_by_facets(const MaterialMesh& mesh, VertexId v, MaterialId material) {
-  std::vector<MaterialId> labels;
-  for (const MaterialId m : mesh.materials) labels.push_back(kLabelOf[m]);
+  std::vector<MaterialId> labels(mesh.materials.size());
+  for (std::size_t t = 0; t < labels.size(); ++t) labels[t] = kLabelOf[mesh.materials[t]];
   std::vector<testing::FaceKey> at_vertex;
   for (const testing::FaceKey& f : testing::surface_of_label(mesh.tets, labels, kLabelOf[material])) {
     if (std::count(f.begin(), f.end(), v) > 0) at_vertex.push_back(f);

@@ -96,12 +96,13 @@ std::vector<TetGroup> tet_groups_at(const LabelledComplex& complex, const std::v
     connected = size < most_tets ? grown(complex, tets, connected) : connected;
   }
   sort_once(groups);
-  std::vector<std::pair<double, std::size_t>> order;
+  std::vector<std::pair<double, std::size_t>> order(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    order.emplace_back(volume_mm3(complex.mesh(), groups[g]), g);
+    order[g] = {volume_mm3(complex.mesh(), groups[g]), g};
   }
   std::sort(order.begin(), order.end());
   std::vector<TetGroup> sorted;
+  sorted.reserve(order.size());
   for (const auto& [volume, g] : order) {
     sorted.push_back(std::move(groups[g]));
   }
