@@ -34,9 +34,8 @@ void TerminalProgress::show(std::string_view name, double fraction) {
   }
   const std::string stage = one_line(std::string(name));
   const double share = std::clamp(fraction, 0.0, 1.0);
-  const std::string name(stage);
   if (!terminal_) {
-    std::fprintf(stderr, "[%6.1f s] %3.0f %% %s\n", watch_.seconds(), 100 * share, name.c_str());
+    std::fprintf(stderr, "[%6.1f s] %3.0f %% %s\n", watch_.seconds(), 100 * share, stage.c_str());
     return;
   }
   constexpr int kWidth = 30;
@@ -44,7 +43,7 @@ void TerminalProgress::show(std::string_view name, double fraction) {
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(kWidth - filled), '.');
   std::fprintf(stderr, "\r\033[K[%s] %3.0f %% %6.1f s  %s", bar.c_str(), 100 * share, watch_.seconds(),
-               name.c_str());
+               stage.c_str());
   std::fflush(stderr);
   bar_shown_ = true;
 }

@@ -190,6 +190,17 @@ void compare_topology(const LabelImage& image, const Lattice& lattice, const Can
   }
 }
 
+/// Of the finished mesh: relabelling where surfaces intersect themselves may have changed it. Labels that
+/// differ since then have no places.
+void compare_topology(const LabelImage& image, const MaterialMesh& mesh, MeshImageReport& report) {
+  CandidateMesh finished;
+  finished.tets.nodes = mesh.tets;
+  finished.materials = mesh.materials;
+  finished.neighbours = tet_neighbours(mesh.tets, mesh.points.size());
+  report.topology_differences =
+      label_differences(betti_of_labels(image), betti_of_labels(finished, mesh.points, image.labels));
+}
+
 std::string betti_text(const Betti& betti) {
   return std::to_string(betti.parts) + ", " + std::to_string(betti.tunnels) + ", " +
          std::to_string(betti.cavities);
@@ -197,9 +208,10 @@ std::string betti_text(const Betti& betti) {
 
 void warn_of_topology_differences(MeshImageReport& report) {
   for (const LabelDifference& d : report.topology_differences) {
-    report.warnings.push_back("label " + std::to_string(d.label) + " has " + betti_text(d.in_image) +
-                              " parts, tunnels, cavities in the cleaned image and " + betti_text(d.in_mesh) +
-                              " in the mesh (the report has places); a smaller finest_spacing_mm keeps more");
+    report.warnings.push_back(
+        "label " + std::to_string(d.label) + " has " + betti_text(d.in_image) +
+        " parts, tunnels, cavities in the cleaned image and " + betti_text(d.in_mesh) +
+        " in the mesh (evaluate names the places); a smaller finest_spacing_mm keeps more");
   }
 }
 
@@ -300,7 +312,6 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
     if (options.refine.keep_topology) {
       compare_topology(image, lattice, candidate, report);
     }
-    warn_of_topology_differences(report);
   }
 
   MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {
@@ -341,9 +352,13 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
       });
     });
     log.dump("5_improved_mesh", mesh);
+    if (options.topology.enabled && options.refine.keep_topology) {
+      compare_topology(image, mesh, report);
+    }
     warn_of_angles(options, report);
     warn_of_elements(options, mesh.tets.size(), report);
   }
+  warn_of_topology_differences(report);
   return mesh;
 }
 

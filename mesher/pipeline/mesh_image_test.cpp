@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
+#include "mesher/preprocess/clean_image.hpp"
 #include "mesher/testing/mesh_checks.hpp"
 #include "mesher/testing/test_images.hpp"
 #include "mesher/topology/cell_quality.hpp"
@@ -323,6 +325,32 @@ TEST(MeshImage, AnEdgeLengthIsThatOfTheSurfaces) {
       }
     }
     EXPECT_NEAR(sum / static_cast<double>(edges), length_mm, 0.3 * length_mm);
+  }
+}
+
+/// Of a noisy image, in which hardly anything is thicker than three voxels.
+TEST(MeshImage, TheReportNamesEveryLabelWhoseTopologyIsNotTheImages) {
+  const LabelImage image = testing::make_image({22, 20, 16}, {1, 1, 1.5}, 2, [](const Vec3& p) {
+    const double g = std::sin(1.3 * p.x) + std::sin(1.1 * p.y + 0.4 * p.x) + std::sin(0.9 * p.z + 0.2 * p.y);
+    return g > 1 ? 1 : g < -1.3 ? 2 : 0;
+  });
+  MeshImageOptions options = preset_options("quality", image.frame);
+  LabelImage clean = image;
+  clean_image(clean, options.clean, true);
+  std::map<Label, Betti> expected = betti_of_labels(clean);
+  MeshImageReport report;
+  const Mesh mesh = mesh_of(image, options, report);
+  for (const LabelDifference& d : report.topology_differences) {
+    EXPECT_EQ(d.in_image, expected.at(d.label));
+    expected[d.label] = d.in_mesh;
+    EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [&](const std::string& warning) {
+      return warning.starts_with("label " + std::to_string(d.label) + " has ");
+    }));
+  }
+  for (const auto& [label, betti] : expected) {
+    EXPECT_EQ(
+        testing::euler_characteristic(testing::surface_of_label(mesh.tets.nodes, mesh.tets.labels, label)),
+        2 * (betti.parts - betti.tunnels + betti.cavities));
   }
 }
 
