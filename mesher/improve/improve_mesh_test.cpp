@@ -173,8 +173,9 @@ TEST(ImproveMesh, GradationBoundsTheGrowthAndCostsTets) {
     const MaterialMesh mesh = improved(image, options, 0.9);
     EXPECT_GT(mesh.tets.size(), tets) << gradation;
     tets = mesh.tets.size();
-    // The lattice itself doubles from cell to cell, and is not split.
-    EXPECT_LT(worst_growth(mesh, 0.2), (gradation < 0.5 ? 0.6 : 0.9) * growth) << gradation;
+    // The lattice itself doubles from cell to cell, and is not split: a quarter more than that, or at least
+    // less than without a limit.
+    EXPECT_LT(worst_growth(mesh, 0.2), gradation < 0.5 ? 2.5 : 0.9 * growth) << gradation;
   }
 }
 
