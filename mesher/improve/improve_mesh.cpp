@@ -217,7 +217,7 @@ class Improver {
                                         .optimize_position = true,
                                         .volume_share = kVolumeShare};
     if (graded) {
-      sizes_ = graded_sizes(mesh_, options_.gradation, tolerances::kLargestInner * mm_.reach);
+      sizes_ = graded_sizes(mesh_, options_.gradation, longest_inner_mm());
     }
     in_patches("decimation", [&](Patch& patch) {
       CollapseOptions collapse = all_collapses;
@@ -237,6 +237,12 @@ class Improver {
       optimize_worst_angles(patch, goal_);
     });
     sizes_.clear();
+  }
+
+  /// Of the edges that surfaces have, so that the inside becomes finer with them.
+  [[nodiscard]] double longest_inner_mm() const {
+    return tolerances::kLargestInner *
+           (mm_.surface_edge > 0 ? mm_.surface_edge / tolerances::kEdgesPerReach : mm_.reach);
   }
 
   [[nodiscard]] double longest_on_surface_mm() const {
