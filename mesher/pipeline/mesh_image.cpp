@@ -199,6 +199,10 @@ void compare_topology(const LabelImage& image, const MaterialMesh& mesh, MeshIma
   finished.neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   report.topology_differences =
       label_differences(betti_of_labels(image), betti_of_labels(finished, mesh.points, image.labels));
+  const std::vector<Label> unlike = labels_of(report.topology_differences);
+  std::erase_if(report.difference_places, [&](const TopologyPlace& place) {
+    return !std::binary_search(unlike.begin(), unlike.end(), place.label);
+  });
 }
 
 std::string betti_text(const Betti& betti) {
