@@ -413,8 +413,8 @@ double children_cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Small files that took minutes or half a minute once; each takes some seconds of CPU now. Noise of few labels
-// in which not every voxel stands alone still takes minutes, and is not among these.
+// Small files that took minutes or half a minute once; each takes some seconds of CPU now. Noise of few
+// labels in which not every voxel stands alone still takes minutes, and is not among these.
 TEST_F(FaultKinds, FewKilobytesTakeSecondsAlone) {
   constexpr double kMostCpuSeconds = 60;
   const auto random_nrrd = [](const std::string& sizes, int voxels, const std::string& spacings) {
