@@ -71,7 +71,7 @@ TEST_F(External, ASizeDialIsReadAndChecked) {
   EXPECT_FALSE(size_dial_of(load_external_mesher(write(good_.dump())), ""));
   good_["size_dial"] = {
       {"parameter", "size"}, {"exponent", -3}, {"first", 2}, {"lowest", 0.1}, {"highest", 50}};
-  const SizeDial dial = size_dial_of(load_external_mesher(write(good_.dump())), "").value_or(SizeDial{});
+  const SizeDial dial = size_dial_of(load_external_mesher(write(good_.dump())), "").value();
   EXPECT_EQ(dial.parameter, "size");
   EXPECT_EQ(dial.exponent, -3);
   EXPECT_EQ(dial.highest, 50);

@@ -71,7 +71,7 @@ TEST(Registry, UnknownParameterNamesTheKnownOnes) {
 TEST(Registry, EveryMesherHasASizeDialAmongItsParameters) {
   for (const Adapter& adapter : registry()) {
     SCOPED_TRACE(adapter.name);
-    const SizeDial dial = size_dial_of(adapter, CBC3D_BIN_DIR).value_or(SizeDial{});
+    const SizeDial dial = size_dial_of(adapter, CBC3D_BIN_DIR).value();
     EXPECT_NO_THROW(require_known_parameters(
         adapter, CBC3D_BIN_DIR, with_size(dial, dial.first, adapter.parameters.in(CBC3D_BIN_DIR), {})));
     EXPECT_NE(dial.exponent, 0);

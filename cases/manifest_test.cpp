@@ -70,12 +70,12 @@ TEST(Manifest, EveryKeyIsRead) {
   EXPECT_EQ(cases[1].parameters.at("cgal").at("mode"), "x");
   EXPECT_EQ(cases[1].parameter_sets.at("fine").at("cgal").at("cell-size"), "1");
   EXPECT_EQ(cases[1].paper.at("note"), "none");
-  const DeformationPattern pattern = cases[1].deformation_pattern.value_or(DeformationPattern{});
+  const DeformationPattern pattern = cases[1].deformation_pattern.value();
   EXPECT_EQ(pattern.pattern, "face");
   EXPECT_EQ(pattern.image, "as it is");
   EXPECT_EQ(pattern.before, "one");
   EXPECT_FALSE(cases[0].image_file);
-  const Phantom phantom = cases[0].phantom.value_or(Phantom{});
+  const Phantom phantom = cases[0].phantom.value();
   EXPECT_EQ(phantom.name, "organs");
   EXPECT_EQ(phantom.size, (Index3{16, 17, 18}));
   EXPECT_EQ(phantom.spacing_mm, (Vec3{1, 1.5, 2}));

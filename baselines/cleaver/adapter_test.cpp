@@ -13,7 +13,7 @@ TEST(CleaverAdapter, IsARepeatableProgramOfOurOwn) {
 }
 
 TEST(CleaverAdapter, MoreSamplesAreMoreElements) {
-  const SizeDial dial = size_dial_of(cleaver_adapters().front(), {}).value_or(SizeDial{});
+  const SizeDial dial = size_dial_of(cleaver_adapters().front(), {}).value();
   EXPECT_EQ(dial.parameter, "sampling-rate");
   EXPECT_GT(dial.exponent, 0);
 }

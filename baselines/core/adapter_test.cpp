@@ -66,7 +66,7 @@ TEST(ProgramAdapter, TheRestFollowsFromTheName) {
   EXPECT_EQ(adapter.command("bin", {.parameters = {{"size", "4"}}}).front(), "bin/cbc3d-mesher-tool");
   EXPECT_THROW(adapter.command("bin", {.parameters = {{"sise", "4"}}}), InputError);
   EXPECT_EQ(adapter.availability("bin").reason, "not built: build the target cbc3d-mesher-tool");
-  EXPECT_EQ(size_dial_of(adapter, "bin").value_or(SizeDial{}).parameter, "size");
+  EXPECT_EQ(size_dial_of(adapter, "bin").value().parameter, "size");
   EXPECT_EQ(program_adapter({.name = "tool"}, {}, "buy it").availability("bin").reason, "buy it");
 }
 

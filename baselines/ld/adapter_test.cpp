@@ -14,7 +14,7 @@ TEST(LdAdapter, IsARepeatableProgramOfOurOwn) {
 
 TEST(LdAdapter, ItsSizeDialTurnsBothDistancesTogether) {
   const Adapter adapter = ld_adapters().front();
-  const SizeDial dial = size_dial_of(adapter, {}).value_or(SizeDial{});
+  const SizeDial dial = size_dial_of(adapter, {}).value();
   const auto turned = with_size(dial, 2.5, adapter.parameters.in({}), {});
   EXPECT_EQ(turned.at("mesh-to-image"), "2.5");
   EXPECT_EQ(turned.at("image-to-mesh"), "2.5");
