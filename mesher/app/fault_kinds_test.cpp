@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
@@ -313,6 +314,7 @@ TEST_F(FaultKinds, DamagedSlicesAreRefused) {
 }
 
 TEST_F(FaultKinds, GreyImagesAndNoiseAreRefused) {
+  std::mt19937 random(7);
   const auto image_of = [](int size, int labels, const std::function<int(int, int, int)>& value) {
     LabelImage image;
     image.frame.size = {size, size, size};
@@ -329,7 +331,9 @@ TEST_F(FaultKinds, GreyImagesAndNoiseAreRefused) {
   const std::pair<const char*, LabelImage> images[] = {
       {"scan.nrrd", image_of(16, 250, [](int x, int y, int z) { return (x * 91 + y * 57 + z * 131) % 250; })},
       {"gradient.nrrd", image_of(24, 70, [](int x, int y, int z) { return x + y + z; })},
-      {"chessboard.nrrd", image_of(40, 3, [](int x, int y, int z) { return 1 + (x + y + z) % 2; })}};
+      {"chessboard.nrrd", image_of(40, 3, [](int x, int y, int z) { return 1 + (x + y + z) % 2; })},
+      {"noise.nrrd", image_of(20, 3, [&](int, int, int) { return static_cast<int>(random() % 3); })},
+      {"salt.nrrd", image_of(32, 2, [&](int, int, int) { return static_cast<int>(random() % 2); })}};
   for (const auto& [name, image] : images) {
     write_label_image(image, at(name));
     expect_refusal("mesh " + at(name) + " --out " + at("o.vtu"), "--many-labels takes it", "o.vtu");
@@ -413,8 +417,8 @@ double children_cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Small files that took minutes or half a minute once; each takes some seconds of CPU now. Noise of few
-// labels in which not every voxel stands alone still takes minutes, and is not among these.
+// Small files that took minutes or half a minute once, and noise that is too small to be refused; each takes
+// some seconds of CPU now.
 TEST_F(FaultKinds, FewKilobytesTakeSecondsAlone) {
   constexpr double kMostCpuSeconds = 60;
   const auto random_nrrd = [](const std::string& sizes, int voxels, const std::string& spacings) {
@@ -425,10 +429,11 @@ TEST_F(FaultKinds, FewKilobytesTakeSecondsAlone) {
     }
     return bytes;
   };
+  write_label_image(testing::noise_image(12, 0.5, 3), at("noise.nrrd"));
   for (const std::string& file :
        {std::string(CBC3D_FAULTS) + "/slow-42.nrrd", write("a.nrrd", random_nrrd("3 6 7", 126, "900 1 1")),
         write("b.nrrd", random_nrrd("6 3 7", 126, "1 300 1")),
-        write("c.nrrd", random_nrrd("7 7 7", 343, "1 1 50"))}) {
+        write("c.nrrd", random_nrrd("7 7 7", 343, "1 1 50")), at("noise.nrrd")}) {
     const double before = children_cpu_seconds();
     const auto outcome = run_command("mesh " + file + " --threads 1 --quiet --out " + at("o.vtu"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
@@ -464,7 +469,8 @@ TEST_F(FaultKinds, AFullDiskLeavesNothingUnderTheName) {
     expect_failure("improve " + at("ball.vtu"), mesh);
   }
   for (const char* volume : {"full.nii", "full.nii.gz", "full.nrrd", "full.mha"}) {
-    expect_failure("clean " + at("noise.nrrd") + " --relabel-noise none --no-manifold-voxels", volume);
+    expect_failure("clean " + at("noise.nrrd") + " --many-labels --relabel-noise none --no-manifold-voxels",
+                   volume);
   }
 }
 

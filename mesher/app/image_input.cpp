@@ -1,7 +1,7 @@
 #include "mesher/app/image_input.hpp"
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/grey_check.hpp"
+#include "mesher/preprocess/grey_check.hpp"
 
 namespace cbc3d {
 
@@ -19,7 +19,8 @@ void add_image_options(CLI::App& command, ImageInput& input) {
       .add_flag(
           "--many-labels", input.many_labels,
           "take an image that looks grey (more than 30 labels, and 5 % of the voxels without a neighbour of "
-          "their label or half of the neighbours unlike) or like noise (half of the voxels without one)")
+          "their label or half of the neighbours unlike) or like noise (half of the voxels without one, or a "
+          "contact at an edge for every ten voxels)")
       ->group(kGroup);
 }
 

@@ -7,7 +7,7 @@
 
 #include "mesher/app/image_input.hpp"
 #include "mesher/app/subcommand.hpp"
-#include "mesher/core/grey_check.hpp"
+#include "mesher/preprocess/grey_check.hpp"
 #include "mesher/core/json_text.hpp"
 #include "mesher/core/read_image.hpp"
 

@@ -1,8 +1,10 @@
-#include "mesher/core/grey_check.hpp"
+#include "mesher/preprocess/grey_check.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+
+#include "mesher/preprocess/voxel_contacts.hpp"
 
 namespace cbc3d {
 namespace {
@@ -27,24 +29,35 @@ void add_voxel(const LabelImage& image, int i, int j, int k, LabelTexture& sum) 
   sum.single_voxels += alone ? 1 : 0;
 }
 
-/// Some slices tell, so that large images cost no time.
+double share(std::size_t part, std::size_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+std::string noise_text(double figure, const char* what, double limit) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "it looks like noise: to 100 labelled voxels come %.0f %s (more than %.0f)", 100 * figure,
+                what, 100 * limit);
+  return text;
+}
+
+/// Some slices tell whether voxels stand alone, so that large images cost no time.
 std::string why_noise(const LabelImage& image) {
   constexpr int kSlices = 64;
-  if (image.voxels.size() < kManySingleVoxels) {
+  if (image.voxels.size() < std::min(kManySingleVoxels, kManyContacts)) {
     return "";
   }
   const int step = std::max(1, image.frame.size[2] / kSlices);
   const LabelTexture t = texture_of(image, step);
-  const double single = static_cast<double>(t.single_voxels) / static_cast<double>(t.voxels);
-  if (t.voxels == 0 || single <= kMostNoise ||
-      t.single_voxels * static_cast<std::size_t>(step) < kManySingleVoxels) {
-    return "";
+  const double single = share(t.single_voxels, t.voxels);
+  if (single > kMostNoise && t.single_voxels * static_cast<std::size_t>(step) >= kManySingleVoxels) {
+    return noise_text(single, "that stand alone", kMostNoise);
   }
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "it looks like noise: %.0f %% of the labelled voxels stand alone (more than %.0f %%)",
-                100 * single, 100 * kMostNoise);
-  return text;
+  const std::size_t contacts = count_voxel_contacts(image).edge_contacts;
+  const double crowded = share(contacts, t.voxels * static_cast<std::size_t>(step));
+  return crowded > kMostContacts && contacts >= kManyContacts
+             ? noise_text(crowded, "contacts of one label at an edge alone", kMostContacts)
+             : "";
 }
 
 }  // namespace
@@ -73,8 +86,8 @@ std::string why_grey(const LabelImage& image) {
     return why_noise(image);
   }
   const LabelTexture t = texture_of(image);
-  const double single = static_cast<double>(t.single_voxels) / static_cast<double>(t.voxels);
-  const double unlike = t.faces > 0 ? static_cast<double>(t.unlike_faces) / static_cast<double>(t.faces) : 0;
+  const double single = share(t.single_voxels, t.voxels);
+  const double unlike = share(t.unlike_faces, t.faces);
   if (single <= kMostSingleVoxels && unlike <= kMostUnlikeFaces) {
     return "";
   }
