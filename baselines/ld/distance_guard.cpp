@@ -3,36 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/core/nearest_on_triangle.hpp"
+
 namespace cbc3d::baselines::ld {
 namespace {
 
-/// Squared distance of a place from a triangle (Ericson: Real-Time Collision Detection, 2005, section 5.1.5).
 double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
-  const Vec3 ab = t[1] - t[0];
-  const Vec3 ac = t[2] - t[0];
-  const Vec3 ap = p - t[0];
-  const double d1 = ab.dot(ap);
-  const double d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return ap.squared_norm();
-  const Vec3 bp = p - t[1];
-  const double d3 = ab.dot(bp);
-  const double d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return bp.squared_norm();
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - ab * (d1 / (d1 - d3))).squared_norm();
-  const Vec3 cp = p - t[2];
-  const double d5 = ab.dot(cp);
-  const double d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return cp.squared_norm();
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - ac * (d2 / (d2 - d6))).squared_norm();
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    return (bp - (t[2] - t[1]) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)))).squared_norm();
-  }
-  const Vec3 normal = ab.cross(ac);
-  const double height = normal.dot(ap);
-  return height * height / normal.squared_norm();
+  return (nearest_on_triangle(p, t[0], t[1], t[2]).at - p).squared_norm();
 }
 
 LatticePoint middle(const LatticePoint& a, const LatticePoint& b) {

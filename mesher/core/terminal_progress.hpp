@@ -22,7 +22,7 @@ class TerminalProgress : public Progress {
   void done();
 
  private:
-  void show(std::string_view stage, double fraction);
+  void show(std::string_view name, double fraction);
   void clear_bar() const;
   bool quiet_;
   bool terminal_;

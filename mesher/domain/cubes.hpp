@@ -30,30 +30,27 @@ struct CubeKeys {
 struct ImageCubes {
   double edge_mm;
   double cubes_per_mm;
-  Index3 size{};
+  ImageFrame grid{};  ///< one voxel for each cube; no more than its size counts
 
   ImageCubes(const ImageFrame& image, double edge) : edge_mm(edge), cubes_per_mm(1 / edge) {
     for (int d = 0; d < 3; ++d) {
       const auto axis = static_cast<std::size_t>(d);
-      size[axis] = static_cast<int>(image.size[axis] * image.spacing_mm[d] / edge_mm) + 1;
+      grid.size[axis] = static_cast<int>(image.size[axis] * image.spacing_mm[d] / edge_mm) + 1;
     }
   }
 
-  [[nodiscard]] std::size_t count() const { return number({0, 0, size[2]}); }
+  [[nodiscard]] std::size_t count() const { return grid.voxel_count(); }
   /// The cube that holds x; the nearest one for what is outside, which is no farther from any place inside.
   [[nodiscard]] Index3 cube_of(const Vec3& x) const {
     Index3 cube;
     for (int d = 0; d < 3; ++d) {
       const auto axis = static_cast<std::size_t>(d);
-      cube[axis] = std::clamp(static_cast<int>(x[d] * cubes_per_mm), 0, size[axis] - 1);
+      cube[axis] = std::clamp(static_cast<int>(x[d] * cubes_per_mm), 0, grid.size[axis] - 1);
     }
     return cube;
   }
   [[nodiscard]] std::size_t number(const Index3& cube) const {
-    return (static_cast<std::size_t>(cube[2]) * static_cast<std::size_t>(size[1]) +
-            static_cast<std::size_t>(cube[1])) *
-               static_cast<std::size_t>(size[0]) +
-           static_cast<std::size_t>(cube[0]);
+    return grid.offset(cube[0], cube[1], cube[2]);
   }
 };
 

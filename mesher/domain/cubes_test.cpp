@@ -43,15 +43,15 @@ TEST(Cubes, ThoseOfAnImageAreNumberedOnceAndHoldWhatIsOutside) {
   frame.spacing_mm = {1, 0.5, 2};
   const ImageCubes cubes(frame, 1.5);
   std::set<std::size_t> numbers;
-  for (int k = 0; k < cubes.size[2]; ++k) {
-    for (int j = 0; j < cubes.size[1]; ++j) {
-      for (int i = 0; i < cubes.size[0]; ++i) numbers.insert(cubes.number({i, j, k}));
+  for (int k = 0; k < cubes.grid.size[2]; ++k) {
+    for (int j = 0; j < cubes.grid.size[1]; ++j) {
+      for (int i = 0; i < cubes.grid.size[0]; ++i) numbers.insert(cubes.number({i, j, k}));
     }
   }
   EXPECT_EQ(numbers.size(), cubes.count());
   EXPECT_EQ(*numbers.rbegin(), cubes.count() - 1);
   EXPECT_EQ(cubes.cube_of({-50, -1, -0.1}), (Index3{0, 0, 0}));
-  const Index3 last = {cubes.size[0] - 1, cubes.size[1] - 1, cubes.size[2] - 1};
+  const Index3 last = {cubes.grid.size[0] - 1, cubes.grid.size[1] - 1, cubes.grid.size[2] - 1};
   EXPECT_EQ(cubes.cube_of({99, 99, 99}), last);
   EXPECT_EQ(cubes.cube_of({3.1, 1.4, 4.6}), (Index3{2, 0, 3}));
 }

@@ -33,9 +33,9 @@ void LatticePlaces::Cubes::add(const Vec3& x) {
     return;
   }
   added.set(number(at));
-  for (int k = std::max(0, at[2] - 1); k <= std::min(size[2] - 1, at[2] + 1); ++k) {
-    for (int j = std::max(0, at[1] - 1); j <= std::min(size[1] - 1, at[1] + 1); ++j) {
-      for (int i = std::max(0, at[0] - 1); i <= std::min(size[0] - 1, at[0] + 1); ++i) {
+  for (int k = std::max(0, at[2] - 1); k <= std::min(grid.size[2] - 1, at[2] + 1); ++k) {
+    for (int j = std::max(0, at[1] - 1); j <= std::min(grid.size[1] - 1, at[1] + 1); ++j) {
+      for (int i = std::max(0, at[0] - 1); i <= std::min(grid.size[0] - 1, at[0] + 1); ++i) {
         flags.set(number({i, j, k}));
       }
     }
