@@ -380,8 +380,11 @@ class Improver {
   void separate_and_relabel_in_turns(SurfaceCover& cover) {
     const SeparationOptions separation{
         .step_mm = tolerances::kSeparationStep * mm_.scale, .goal_quality = goal_, .rounds = 12};
-    const RelabelOptions relabel{
-        .step_mm = cover_.reach_mm, .largest_mm3 = largest_change_mm3(), .goal_quality = goal_, .rounds = 6};
+    const RelabelOptions relabel{.step_mm = cover_.reach_mm,
+                                 .largest_mm3 = largest_change_mm3(),
+                                 .goal_quality = goal_,
+                                 .rounds = 6,
+                                 .keep_topology = options_.keep_topology};
     for (int turn = 0; turn < 3; ++turn) {
       report_.self_intersections_left = separate_self_intersections(mesh_, cover, separation);
       if (!options_.may_relabel) {
@@ -413,6 +416,7 @@ class Improver {
     options.step_mm = mm_.scale;
     options.largest_mm3 = largest_change_mm3();
     options.goal_quality = goal_;
+    options.keep_topology = options_.keep_topology;
     const DefectRemovalReport report = remove_surface_defects(mesh_, domain_, options);
     report_.tets_relabelled += report.tets_relabelled;
     report_.self_intersections_left = report.self_intersections_left;

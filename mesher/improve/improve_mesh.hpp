@@ -54,6 +54,8 @@ struct ImproveOptions {
   bool keep_distances = false;
   bool may_relabel =
       true;  ///< tets may change their material where the surfaces have defects that nothing else mends
+  /// Relabelling leaves the labels' topology as it is: for meshes that have the domain's.
+  bool keep_topology = false;
   bool correct_volumes = true;  ///< the volumes of labels become those of the domain
 };
 

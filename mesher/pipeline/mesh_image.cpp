@@ -294,6 +294,7 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
   RefineOptions refine = refine_options(image, options);
   ImproveOptions improve = options.improve;
   improve.target_tets = options.elements;
+  improve.keep_topology = options.topology.enabled && options.refine.keep_topology;
   if (options.edge_length_mm > 0 && improve.enabled) {
     scale_lengths(options.edge_length_mm / (tolerances::kEdgesPerReach * refine.max_distance_mm), refine,
                   improve);

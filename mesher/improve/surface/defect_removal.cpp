@@ -4,6 +4,7 @@
 
 #include "mesher/improve/local/mesh_star.hpp"
 #include "mesher/improve/surface/tet_groups.hpp"
+#include "mesher/improve/surface/topology_guard.hpp"
 
 namespace cbc3d {
 namespace {
@@ -103,8 +104,9 @@ class TrialEdits {
     const double floor = std::min(options_.goal_quality, worst_angle(steps));
     const bool ends = end_a_material(steps);
     const DefectMeter::Scope scope = meter_.scope_of(touched_by(steps));
+    const TopologyGuard topology = guard_of(steps);
     apply(steps);
-    const bool may = !ends && worst_angle(steps) >= floor;
+    const bool may = !ends && worst_angle(steps) >= floor && topology.holds();
     undo(steps);
     if (!may) {
       return std::nullopt;
@@ -194,6 +196,19 @@ class TrialEdits {
       }
     }
     return vertices;
+  }
+
+  [[nodiscard]] TopologyGuard guard_of(const Steps& steps) const {
+    std::vector<TetId> tets;
+    std::vector<MaterialId> materials;
+    for (const Step& step : steps) {
+      if (options_.keep_topology && step.tet != kNoTet) {
+        tets.push_back(step.tet);
+        materials.push_back(complex_.material(step.tet));
+        materials.push_back(step.to);
+      }
+    }
+    return {complex_, tets, materials};
   }
 
   /// True when the steps would relabel a material's last tet.

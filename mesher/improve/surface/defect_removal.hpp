@@ -16,6 +16,7 @@ struct DefectRemovalOptions {
   double largest_mm3 = 8;           ///< largest volume that is relabelled at once
   double goal_quality = 0;          ///< no tet's worst angle falls below this, or below what it was
   int rounds = 4;                   ///< at most
+  bool keep_topology = false;       ///< of the labels of tets that are relabelled (topology_guard.hpp)
   std::size_t most_trials = 0;      ///< trial edits in all; 0: 10,000 and one for every eight tets
   std::size_t place_trials = 8000;  ///< trial edits at one place
 };

@@ -23,6 +23,10 @@ class LabelledComplex {
   [[nodiscard]] const std::vector<MaterialSet>& sets() const { return sets_; }
   [[nodiscard]] std::span<const TetId> star(VertexId v) const { return around_.of(v); }
   [[nodiscard]] MaterialId material(TetId t) const { return mesh_.materials[t]; }
+  /// True when the tet has the label that the material is of.
+  [[nodiscard]] bool has_label_of(TetId t, MaterialId material) const {
+    return label_of_[mesh_.materials[t]] == label_of_[material];
+  }
   [[nodiscard]] TetId neighbour(TetId t, std::size_t n) const { return neighbours_[t][n]; }
   [[nodiscard]] MaterialId across(TetId t, std::size_t n) const {
     return neighbours_[t][n] == kNoTet ? kBackground : mesh_.materials[neighbours_[t][n]];

@@ -6,6 +6,7 @@
 #include "mesher/improve/local/mesh_star.hpp"
 #include "mesher/improve/surface/labelled_complex.hpp"
 #include "mesher/improve/surface/self_intersections.hpp"
+#include "mesher/improve/surface/topology_guard.hpp"
 
 namespace cbc3d {
 namespace {
@@ -236,8 +237,11 @@ class Relabeller {
       old_sets_.push_back(complex_.set(v));
       pinched_.push_back(complex_.is_manifold_at(v, kBackground) ? 0 : 1);
     }
+    const TopologyGuard topology(complex_, tets,
+                                 options_.keep_topology ? std::vector{from, to} : std::vector<MaterialId>{});
     assign(tets, to);
-    if (keeps_manifolds() && keeps_label(from) && keeps_near() && keeps_samples_covered()) {
+    if (keeps_manifolds() && keeps_label(from) && keeps_near() && topology.holds() &&
+        keeps_samples_covered()) {
       for (const Reassignment& r : new_covering_) {
         cover_.reassign(r.sample, r.from, r.to);
       }

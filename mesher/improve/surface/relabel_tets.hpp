@@ -23,6 +23,7 @@ struct RelabelOptions {
   double goal_quality =
       0;           ///< where a vertex moves, no tet's worst angle falls below this, or below what it was
   int rounds = 6;  ///< at most
+  bool keep_topology = false;  ///< of the labels of tets that are relabelled (topology_guard.hpp)
 };
 
 struct RelabelReport {
