@@ -46,4 +46,20 @@ bool PartRaster::holds_other(const std::array<LatticePoint, 4>& tet, MaterialId 
   return found;
 }
 
+TopologyDifferences find_topology_differences(const LabelImage& image, const Lattice& lattice,
+                                              const CandidateMesh& mesh, const std::vector<Label>& labels) {
+  constexpr std::size_t kMostHalves = 4000000;  // there are eight times as many quarters
+  TopologyDifferences found;
+  for (const int fewest : {kHalves, 2 * kHalves}) {
+    const std::vector<MisplacedPart> parts =
+        PartRaster(image, lattice.frame, fewest).misplaced(lattice, mesh);
+    found.places = find_topology_differences(image, parts, labels, fewest);
+    found.misplaced = voxels_of_parts(image.frame, parts, fewest);
+    if (!found.places.empty() || parts.size() > kMostHalves) {
+      break;
+    }
+  }
+  return found;
+}
+
 }  // namespace cbc3d

@@ -13,10 +13,10 @@ namespace cbc3d {
 class PartRaster {
  public:
   /// The image must outlive this.
-  PartRaster(const LabelImage& image, const LatticeFrame& lattice)
+  PartRaster(const LabelImage& image, const LatticeFrame& lattice, int fewest = kHalves)
       : image_(image),
-        parts_(voxel_parts(image.frame)),
-        frame_(part_frame(image.frame)),
+        parts_(voxel_parts(image.frame, fewest)),
+        frame_(part_frame(image.frame, fewest)),
         raster_(image.frame, lattice, parts_) {}
 
   /// Those of the whole mesh, by offset. Parallel; the same at any thread count.
@@ -37,5 +37,16 @@ class PartRaster {
   ImageFrame frame_;
   VoxelRaster raster_;
 };
+
+/// Offsets of voxels in the image, ascending.
+struct TopologyDifferences {
+  std::vector<std::size_t> places;     ///< find_topology_differences
+  std::vector<std::size_t> misplaced;  ///< all voxels with misplaced parts
+};
+
+/// Where labels have another topology in the mesh than in the image. Where halves of voxels show no place,
+/// which happens with tunnels narrower than they are, quarters are looked at.
+TopologyDifferences find_topology_differences(const LabelImage& image, const Lattice& lattice,
+                                              const CandidateMesh& mesh, const std::vector<Label>& labels);
 
 }  // namespace cbc3d

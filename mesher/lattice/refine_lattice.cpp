@@ -351,13 +351,11 @@ class Refiner {
       return 0;
     }
     const ImageBetti& of_image = *betti_of_image_;
-    const PartRaster& parts = *parts_;
     mark_what_repair_loses(true);
-    const std::vector<MisplacedPart> misplaced = parts.misplaced(lattice_, result_.mesh);
-    const auto places =
-        find_topology_differences(image_, misplaced, of_image.unlike_labels(result_.mesh, points_));
+    const TopologyDifferences found = find_topology_differences(
+        image_, lattice_, result_.mesh, of_image.unlike_labels(result_.mesh, points_));
     ExactVoxels& exact = exact_ ? *exact_ : exact_.emplace(image_.frame);
-    exact.add(places, voxels_of_parts(image_.frame, misplaced));
+    exact.add(found.places, found.misplaced);
     std::size_t changed = 0;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : changed)
     for (std::size_t t = 0; t < judged_.size(); ++t) {

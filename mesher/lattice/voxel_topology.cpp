@@ -14,11 +14,11 @@ namespace {
 class Transition {
  public:
   Transition(const LabelImage& image, const std::vector<MisplacedPart>& misplaced,
-             const std::vector<Label>& labels)
+             const std::vector<Label>& labels, int fewest)
       : image_(image),
         labels_(labels),
-        parts_(voxel_parts(image.frame)),
-        frame_(part_frame(image.frame)),
+        parts_(voxel_parts(image.frame, fewest)),
+        frame_(part_frame(image.frame, fewest)),
         misplaced_(misplaced),
         first_of_row_(static_cast<std::size_t>(frame_.size[1]) * static_cast<std::size_t>(frame_.size[2]) +
                       1),
@@ -119,20 +119,18 @@ class Transition {
 
 }  // namespace
 
-Index3 voxel_parts(const ImageFrame& image) {
-  constexpr int kFewest = 2;
-  constexpr int kMost = 8;  // of needles and plates
+Index3 voxel_parts(const ImageFrame& image, int fewest) {
+  constexpr int kLongest = 4;  // in shortest sides: the bound for needles and plates
   Index3 parts{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double length = image.spacing_mm[axis] / image.spacing_mm.min_coeff();
-    parts[axis] =
-        std::clamp(static_cast<int>(std::lround(kFewest * std::min<double>(length, kMost))), kFewest, kMost);
+    parts[axis] = static_cast<int>(std::lround(fewest * std::min<double>(length, kLongest)));
   }
   return parts;
 }
 
-ImageFrame part_frame(const ImageFrame& image) {
-  const Index3 parts = voxel_parts(image);
+ImageFrame part_frame(const ImageFrame& image, int fewest) {
+  const Index3 parts = voxel_parts(image, fewest);
   ImageFrame frame = image;
   Vec3 corner;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -146,13 +144,14 @@ ImageFrame part_frame(const ImageFrame& image) {
 
 std::vector<std::size_t> find_topology_differences(const LabelImage& image,
                                                    const std::vector<MisplacedPart>& misplaced,
-                                                   const std::vector<Label>& labels) {
-  return voxels_of_parts(image.frame, Transition(image, misplaced, labels).run());
+                                                   const std::vector<Label>& labels, int fewest) {
+  return voxels_of_parts(image.frame, Transition(image, misplaced, labels, fewest).run(), fewest);
 }
 
-std::vector<std::size_t> voxels_of_parts(const ImageFrame& image, const std::vector<MisplacedPart>& parts) {
-  const Index3 cut = voxel_parts(image);
-  const ImageFrame frame = part_frame(image);
+std::vector<std::size_t> voxels_of_parts(const ImageFrame& image, const std::vector<MisplacedPart>& parts,
+                                         int fewest) {
+  const Index3 cut = voxel_parts(image, fewest);
+  const ImageFrame frame = part_frame(image, fewest);
   std::vector<std::size_t> voxels;
   for (const MisplacedPart& part : parts) {
     const Index3 at = frame.index_of(part.offset);

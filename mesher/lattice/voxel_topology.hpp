@@ -13,12 +13,14 @@
 
 namespace cbc3d {
 
-/// Into how many parts a voxel is cut along each axis: two, and more along longer sides, so that parts are
-/// about cubes.
-Index3 voxel_parts(const ImageFrame& image);
+inline constexpr int kHalves = 2;
+
+/// Into how many parts a voxel is cut along each axis: `fewest` along its shortest side, and more along
+/// longer ones, so that parts are about cubes.
+Index3 voxel_parts(const ImageFrame& image, int fewest = kHalves);
 
 /// The image's frame, cut so.
-ImageFrame part_frame(const ImageFrame& image);
+ImageFrame part_frame(const ImageFrame& image, int fewest = kHalves);
 
 /// A part of a voxel that the mesh has in another material than the image.
 struct MisplacedPart {
@@ -28,11 +30,13 @@ struct MisplacedPart {
 
 /// Offsets in the image, ascending, of the voxels with misplaced parts that cannot take the mesh's label
 /// without a change of topology of one of `labels`, none of them background. `misplaced` ascends by offset.
+/// `fewest` is that of its parts.
 std::vector<std::size_t> find_topology_differences(const LabelImage& image,
                                                    const std::vector<MisplacedPart>& misplaced,
-                                                   const std::vector<Label>& labels);
+                                                   const std::vector<Label>& labels, int fewest = kHalves);
 
 /// The voxels that have misplaced parts: offsets in the image, ascending.
-std::vector<std::size_t> voxels_of_parts(const ImageFrame& image, const std::vector<MisplacedPart>& parts);
+std::vector<std::size_t> voxels_of_parts(const ImageFrame& image, const std::vector<MisplacedPart>& parts,
+                                         int fewest = kHalves);
 
 }  // namespace cbc3d

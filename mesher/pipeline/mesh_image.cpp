@@ -183,10 +183,9 @@ void compare_topology(const LabelImage& image, const Lattice& lattice, const Can
   report.topology_differences = label_differences(
       betti_of_labels(image), betti_of_labels(candidate, local_points(lattice), image.labels));
   if (!report.topology_differences.empty()) {
-    const PartRaster parts(image, lattice.frame);
-    report.difference_places =
-        places_of(image, find_topology_differences(image, parts.misplaced(lattice, candidate),
-                                                   labels_of(report.topology_differences)));
+    report.difference_places = places_of(
+        image,
+        find_topology_differences(image, lattice, candidate, labels_of(report.topology_differences)).places);
   }
 }
 
