@@ -42,7 +42,7 @@ struct RefineOptions {
   bool keep_topology = false;   ///< with repair_rounds, of well-composed images: refine also where a label of
                                 ///< the repaired mesh has another topology than in the image, and take the
                                 ///< voxels' own labels there
-  int max_rounds = 40;          ///< a bound that is never reached unless something is wrong
+  int max_rounds = 100;         ///< a bound that is never reached unless something is wrong
 };
 
 struct RefineResult {

@@ -26,7 +26,7 @@ RefineOptions refinement_by_distance(double diagonal_mm) {
           .each_interface = true,
           .one_face_rule = false,
           .topology_rounds = 0,
-          .repair_rounds = 16,
+          .repair_rounds = 32,
           .repair_image_passes = 4,
           .keep_topology = true};
 }
