@@ -44,11 +44,15 @@ std::vector<double> interface_sizes(const MaterialMesh& mesh) {
 
 std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation, double largest_mm) {
   std::vector<double> size = interface_sizes(mesh);
+  // Ways end where they are as long as the largest size: most of a coarse interior is never walked through.
+  for (double& s : size) {
+    s = std::min(s, largest_mm);
+  }
   const VertexCells at = tets_of_vertices(mesh.tets, mesh.points.size());
   using Known = std::pair<double, VertexId>;
   std::priority_queue<Known, std::vector<Known>, std::greater<>> open;  // smallest first
   for (std::size_t v = 0; v < size.size(); ++v) {
-    if (size[v] < kInfinity) {
+    if (size[v] < largest_mm) {
       open.emplace(size[v], static_cast<VertexId>(v));
     }
   }
@@ -67,9 +71,6 @@ std::vector<double> graded_sizes(const MaterialMesh& mesh, double gradation, dou
         }
       }
     }
-  }
-  for (double& s : size) {
-    s = std::min(s, largest_mm);
   }
   return size;
 }
