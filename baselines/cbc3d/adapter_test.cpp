@@ -40,7 +40,7 @@ bool has_sequence(const Argv& argv, const Argv& wanted) {
 void expect_options_of(const std::string& mesher, const std::string& preset, bool mixed) {
   SCOPED_TRACE(mesher);
   ImageFrame frame;
-  MeshImageOptions options = preset_options(preset, frame, mixed);
+  MeshImageOptions options = preset_options(preset, frame);
   options.mixed = mixed;
   std::set<std::string> missing;
   for (const OptionRow& row : option_table()) {

@@ -30,7 +30,7 @@ void run(CleanCommand& command) {
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.image, 0);
   LabelImage image = read_input_image(command.image, command.input);
-  MeshImageOptions options = preset_options(command.preset, image.frame, false);
+  MeshImageOptions options = preset_options(command.preset, image.frame);
   apply_settings(command.settings, options);
   progress.step("cleaning", 0.3);
   const CleanReport report = clean_image(image, options.clean, false);

@@ -28,13 +28,8 @@ struct DeformCommand {
   CommonOptions common;
 };
 
-/// The preset's options without the improvement, as for a mesh of mixed elements.
-MeshImageOptions deforming_options(const DeformCommand& command, const ImageFrame& frame) {
-  return preset_options(command.preset, frame, true);
-}
-
 MeshImageOptions options_of(const DeformCommand& command, const LabelImage& image) {
-  MeshImageOptions options = deforming_options(command, image.frame);
+  MeshImageOptions options = deformation_preset_options(command.preset);
   apply_settings(command.settings, options);
   require_known_labels(options, image);
   // A mesh from a file may be deformed already, so that no tet of it is red to the last digit.
@@ -43,12 +38,12 @@ MeshImageOptions options_of(const DeformCommand& command, const LabelImage& imag
   return options;
 }
 
-void write_report(const DeformCommand& command, const ImageFrame& frame, const MeshImageOptions& options,
-                  const MixReport& mix, const DeformReport& deform, const Mesh& mesh) {
+void write_report(const DeformCommand& command, const MeshImageOptions& options, const MixReport& mix,
+                  const DeformReport& deform, const Mesh& mesh) {
   const nlohmann::json json = {{"status", "ok"},
                                {"reason", ""},
                                {"version", CBC3D_VERSION},
-                               {"options", options_json(options, deforming_options(command, frame),
+                               {"options", options_json(options, deformation_preset_options(command.preset),
                                                         {OptionGroup::mixed, OptionGroup::deformation})},
                                {"counts", counts_json(mesh)},
                                {"mixed_elements", options.mixed ? mix_json(mix) : nlohmann::json()},
@@ -97,7 +92,7 @@ void run(DeformCommand& command) {
   const Mesh out = to_physical_mesh(mesh, image);
   write_mesh(out, command.out);
   if (!command.common.report_file.empty()) {
-    write_report(command, image.frame, options, mix, deform, out);
+    write_report(command, options, mix, deform, out);
   }
   progress.done();
   for (const std::string& warning : command.input.warnings) {
@@ -126,7 +121,7 @@ void add_deform_command(CLI::App& app, int& exit_code) {
                    "quality: our best; paper: the published method [" + command->preset + "]")
       ->check(CLI::IsMember(preset_names()));
   for (const OptionGroup group : {OptionGroup::mixed, OptionGroup::deformation}) {
-    add_option_flags(*deform, group, preset_columns(true), command->settings);
+    add_option_flags(*deform, group, deformation_columns(), command->settings);
   }
   add_image_options(*deform, command->input);
   add_report_option(*deform, command->common, "JSON file with options, counts and per-iteration figures");

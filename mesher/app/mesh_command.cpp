@@ -43,7 +43,7 @@ void write_failure(const MeshCommand& command, const char* status, const std::st
 }
 
 MeshImageOptions options_of(const MeshCommand& command, const LabelImage& image) {
-  MeshImageOptions options = preset_options(command.preset, image.frame, is_on(command.settings, "mixed"));
+  MeshImageOptions options = preset_options(command.preset, image.frame);
   apply_settings(command.settings, options);
   require_known_labels(options, image);
   options.dump_stages = command.dump_stages;

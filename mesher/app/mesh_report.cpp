@@ -9,7 +9,7 @@ namespace {
 
 /// The options used; the lattice's spacings are those in force.
 nlohmann::json used_options_json(const RunDescription& run, const MeshImageReport& report) {
-  nlohmann::json options = options_json(run.options, preset_options(run.preset, run.frame, run.options.mixed),
+  nlohmann::json options = options_json(run.options, preset_options(run.preset, run.frame),
                                         {OptionGroup::cleaning, OptionGroup::lattice, OptionGroup::mixed,
                                          OptionGroup::improvement, OptionGroup::deformation});
   options["preset"] = run.preset;

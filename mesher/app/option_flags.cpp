@@ -7,8 +7,6 @@
 namespace cbc3d {
 namespace {
 
-constexpr const char* kMixedSuffix = " with --mixed";
-
 std::string heading(OptionGroup group) {
   switch (group) {
     case OptionGroup::cleaning:
@@ -28,20 +26,6 @@ std::string heading(OptionGroup group) {
 /// A default under the label of its column.
 using Entry = std::pair<std::string, std::string>;
 
-/// Drops the columns with mixed elements that say the same as those without.
-std::vector<Entry> without_repeats(std::vector<Entry> entries) {
-  std::vector<Entry> kept;
-  for (const Entry& entry : entries) {
-    const auto is_base = [&](const Entry& other) {
-      return other.first + kMixedSuffix == entry.first && other.second == entry.second;
-    };
-    if (std::none_of(entries.begin(), entries.end(), is_base)) {
-      kept.push_back(entry);
-    }
-  }
-  return kept;
-}
-
 std::string defaults_text(const OptionRow& row, const std::vector<DefaultColumn>& columns) {
   std::vector<Entry> entries;
   for (const DefaultColumn& column : columns) {
@@ -55,7 +39,7 @@ std::string defaults_text(const OptionRow& row, const std::vector<DefaultColumn>
     return entries.empty() ? "" : entries.front().second;
   }
   std::string text;
-  for (const auto& [label, value] : without_repeats(entries)) {
+  for (const auto& [label, value] : entries) {
     text += (text.empty() ? "" : ", ") + label + ": " + value;
   }
   return text;
@@ -108,13 +92,18 @@ ImageFrame frame_of_defaults() {
   return {};
 }
 
-std::vector<DefaultColumn> preset_columns(bool always_mixed) {
+std::vector<DefaultColumn> preset_columns() {
   std::vector<DefaultColumn> columns;
   for (const std::string& name : preset_names()) {
-    columns.push_back({name, preset_options(name, frame_of_defaults(), always_mixed)});
-    if (!always_mixed) {
-      columns.push_back({name + kMixedSuffix, preset_options(name, frame_of_defaults(), true)});
-    }
+    columns.push_back({name, preset_options(name, frame_of_defaults())});
+  }
+  return columns;
+}
+
+std::vector<DefaultColumn> deformation_columns() {
+  std::vector<DefaultColumn> columns;
+  for (const std::string& name : preset_names()) {
+    columns.push_back({name, deformation_preset_options(name)});
   }
   return columns;
 }

@@ -18,8 +18,11 @@ struct DefaultColumn {
 /// The frame for which help texts show defaults: voxels of 1 mm.
 ImageFrame frame_of_defaults();
 
-/// One column for each preset and, unless `always_mixed`, one for each with mixed elements.
-std::vector<DefaultColumn> preset_columns(bool always_mixed = false);
+/// One column for each preset.
+std::vector<DefaultColumn> preset_columns();
+
+/// The same for the deformation of a given mesh.
+std::vector<DefaultColumn> deformation_columns();
 
 /// Adds --NAME for this row; its value is checked at once and goes to `settings`, which must outlive the
 /// command. The help text has the unit, the range and the default, by column where they differ.

@@ -95,7 +95,7 @@ nlohmann::json description(const OptionRow& row, const MeshImageOptions& preset)
 }
 
 nlohmann::json preset_description(const std::string& name, bool mixed) {
-  MeshImageOptions preset = preset_options(name, frame_of_defaults(), mixed);
+  MeshImageOptions preset = preset_options(name, frame_of_defaults());
   preset.mixed = mixed;
   nlohmann::json options = nlohmann::json::array();
   for (const OptionRow& row : option_table()) {

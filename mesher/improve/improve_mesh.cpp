@@ -45,11 +45,12 @@ struct Lengths {
 class Improver {
  public:
   Improver(MaterialMesh& mesh, const Domain& domain, const ImproveOptions& options,
-           const std::function<void(int)>& on_round)
+           const std::function<void(int)>& on_round, std::span<const std::uint8_t> fixed)
       : mesh_(mesh),
         domain_(domain),
         options_(options),
         on_round_(on_round),
+        fixed_(fixed.begin(), fixed.end()),
         goal_(quality_of_deg(options.min_dihedral_deg + kMarginDeg)),
         mm_(domain, options),
         relax_{.surface_weight = options.surface_weight,
@@ -93,6 +94,7 @@ class Improver {
   static constexpr double kGoodDeg = 35;          // edge removal is tried at tets worse than this
   static constexpr double kLongestPerMean = 1.4;  // of edges in an even mesh
   static constexpr double kLongestGrowth = 5;     // of an edge in a collapse
+  static constexpr double kGrowthAtFixed = 1.5;   // of edges that end at a fixed vertex
   static constexpr double kVolumeShare = 0.05;    // largest loss of a material around a collapse
   static constexpr int kSettlings = 10;           // at most
   static constexpr int kCorrections = 6;          // of the volumes in the last stage, at most
@@ -218,6 +220,7 @@ class Improver {
                                         .volume_share = kVolumeShare};
     if (graded) {
       sizes_ = graded_sizes(mesh_, options_.gradation, longest_inner_mm());
+      allow_edges_at_fixed_vertices();
     }
     in_patches("decimation", [&](Patch& patch) {
       CollapseOptions collapse = all_collapses;
@@ -237,6 +240,22 @@ class Improver {
       optimize_worst_angles(patch, goal_);
     });
     sizes_.clear();
+  }
+
+  [[nodiscard]] bool is_fixed(VertexId v) const { return v < fixed_.size() && fixed_[v] != 0; }
+
+  /// Edges at fixed vertices may be longer than those that these have among themselves.
+  void allow_edges_at_fixed_vertices() {
+    for (std::size_t t = 0; !fixed_.empty() && t < mesh_.tets.size(); ++t) {
+      for (const VertexId v : mesh_.tets[t]) {
+        for (const VertexId w : mesh_.tets[t]) {
+          if (is_fixed(v) && is_fixed(w)) {
+            const double edge_mm = (mesh_.points[v] - mesh_.points[w]).norm();
+            sizes_[v] = std::max(sizes_[v], kGrowthAtFixed * edge_mm);
+          }
+        }
+      }
+    }
   }
 
   /// Of the edges that surfaces have, so that the inside becomes finer with them.
@@ -316,6 +335,9 @@ class Improver {
       deviation_mm =
           std::max(deviation_mm, std::min(tolerances::kRepairDeviation * mm_.scale, deviation_mm + more_mm));
     }
+    if (round >= kFarRepair) {
+      release_fixed_vertices(below);
+    }
     on_round_(round_);
     std::size_t bad = 0;
     clock_.time(name, [&] {
@@ -323,6 +345,22 @@ class Improver {
                                   [&](Patch& patch) { repair_patch(patch, below > 0 ? round : 0); });
     });
     return bad;
+  }
+
+  /// Fixed vertices of tets that are still bad may move from now on.
+  void release_fixed_vertices(double below) {
+    for (std::size_t t = 0; !fixed_.empty() && t < mesh_.tets.size(); ++t) {
+      const auto& n = mesh_.tets[t];
+      const auto& p = mesh_.points;
+      const bool any = std::any_of(n.begin(), n.end(), [this](VertexId v) { return is_fixed(v); });
+      if (any && tet_quality(p[n[0]], p[n[1]], p[n[2]], p[n[3]]) < below) {
+        for (const VertexId v : n) {
+          if (v < fixed_.size()) {
+            fixed_[v] = 0;
+          }
+        }
+      }
+    }
   }
 
   /// From the second round on edges may be split; later the vertices are relaxed with less weight of the
@@ -417,6 +455,7 @@ class Improver {
     options.largest_mm3 = largest_change_mm3();
     options.goal_quality = goal_;
     options.keep_topology = options_.keep_topology;
+    options.fixed = fixed_;
     const DefectRemovalReport report = remove_surface_defects(mesh_, domain_, options);
     report_.tets_relabelled += report.tets_relabelled;
     report_.self_intersections_left = report.self_intersections_left;
@@ -443,6 +482,7 @@ class Improver {
             .samples = cover_.samples,
             .reach_mm = cover_.reach_mm,
             .own_reach_mm = cover_.own_reach_mm,
+            .fixed = fixed_,
             .longest_mm = sizes_,
             .smoothness_cap_mm = caps_};
   }
@@ -461,6 +501,7 @@ class Improver {
   const Domain& domain_;
   const ImproveOptions& options_;
   const std::function<void(int)>& on_round_;
+  std::vector<std::uint8_t> fixed_;  // vertices that stay; vertices keep their numbers until the end
   double goal_;
   Lengths mm_;
   RelaxOptions relax_;
@@ -479,8 +520,9 @@ class Improver {
 }  // namespace
 
 ImproveReport improve_mesh(MaterialMesh& mesh, const Domain& domain, const ImproveOptions& options,
-                           const std::function<void(int round)>& on_round) {
-  return Improver(mesh, domain, options, on_round).run();
+                           const std::function<void(int round)>& on_round,
+                           std::span<const std::uint8_t> fixed) {
+  return Improver(mesh, domain, options, on_round, fixed).run();
 }
 
 }  // namespace cbc3d

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <span>
 
 #include "mesher/core/stage_clock.hpp"
 #include "mesher/domain/domain.hpp"
@@ -73,8 +74,12 @@ struct ImproveReport {
 };
 
 /// Improves a mesh of tets (local mm) towards the domain. Same result at any thread count. Tets that are not
-/// positive are untangled where that is possible, and else stay.
+/// positive are untangled where that is possible, and else stay. Vertices with a nonzero entry in `fixed`,
+/// which is empty or has one for each vertex, keep their places, and tets with fixed vertices alone stay as
+/// they are, unless a tet beside them cannot be brought to the goal otherwise. None of them may be on an
+/// interface.
 ImproveReport improve_mesh(MaterialMesh& mesh, const Domain& domain, const ImproveOptions& options,
-                           const std::function<void(int round)>& on_round);
+                           const std::function<void(int round)>& on_round,
+                           std::span<const std::uint8_t> fixed = {});
 
 }  // namespace cbc3d

@@ -148,6 +148,53 @@ TEST(ImproveMesh, SmoothnessAndGradationAreTheSameAtAnyThreadCount) {
   EXPECT_EQ(testing::inverted_tets(two.tets, two.points), 0U);
 }
 
+TEST(ImproveMesh, FixedVerticesAndTheTetsBetweenThemStay) {
+  const LabelImage image = ball();
+  ImproveOptions options;
+  options.gradation = 5;
+  const double core_mm = 10;  // of the radius of 16.2: what is fixed is far from the surface
+  MaterialMesh start = testing::lattice_mesh(image, tolerances::kReach);
+  std::vector<std::uint8_t> fixed;
+  for (const Vec3& p : start.points) {
+    fixed.push_back((p - kBallCentre).norm() < core_mm ? 1 : 0);
+  }
+  const auto places_of_core = [&](const MaterialMesh& mesh) {
+    std::vector<std::array<std::array<double, 3>, 4>> tets;
+    for (const auto& tet : mesh.tets) {
+      std::array<std::array<double, 3>, 4> places{};
+      std::transform(tet.begin(), tet.end(), places.begin(), [&](VertexId v) {
+        return std::array{mesh.points[v].x, mesh.points[v].y, mesh.points[v].z};
+      });
+      if (std::all_of(tet.begin(), tet.end(),
+                      [&](VertexId v) { return (mesh.points[v] - kBallCentre).norm() < core_mm; })) {
+        std::sort(places.begin(), places.end());
+        tets.push_back(places);
+      }
+    }
+    std::sort(tets.begin(), tets.end());
+    return tets;
+  };
+  const auto core = places_of_core(start);
+  ASSERT_GT(core.size(), 50U);
+  std::vector<MaterialMesh> after;
+  for (const int threads : {1, 2}) {
+    set_thread_count(threads);
+    after.push_back(start);
+    const ImproveReport report = improve_mesh(
+        after.back(), ImageDomain(image), options, [](int) {}, fixed);
+    EXPECT_GE(report.min_dihedral_after_deg, 20);
+    EXPECT_LT(report.tets_after, report.tets_before);
+    const auto now = places_of_core(after.back());
+    EXPECT_TRUE(std::includes(now.begin(), now.end(), core.begin(), core.end()));
+  }
+  set_thread_count(0);
+  EXPECT_EQ(after[0].points, after[1].points);
+  EXPECT_EQ(after[0].tets, after[1].tets);
+  improve_mesh(start, ImageDomain(image), options, [](int) {});
+  const auto free = places_of_core(start);
+  EXPECT_FALSE(std::includes(free.begin(), free.end(), core.begin(), core.end()));
+}
+
 /// The largest ratio of an inner edge to what the gradation allows it.
 double worst_growth(const MaterialMesh& mesh, double gradation) {
   const std::vector<double> sizes = graded_sizes(mesh, gradation, 1e9);

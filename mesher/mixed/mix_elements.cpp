@@ -65,22 +65,67 @@ std::array<VertexId, 2> rest_of(const std::array<VertexId, 4>& tet, VertexId a, 
 
 class Mixer {
  public:
-  Mixer(MaterialMesh& mesh, const MixOptions& options)
+  Mixer(const MaterialMesh& mesh, const MixOptions& options)
       : mesh_(mesh),
         options_(options),
         around_(cells_of_vertices(mesh)),
         state_(mesh.points.size(), kOther) {}
 
-  MixReport run() {
+  /// Chooses centres among the allowed vertices; empty: all are allowed.
+  MixReport choose(std::span<const std::uint8_t> allowed) {
     MixReport report;
-    report.vertices_before = mesh_.points.size();
-    report.centres = find_centres();
+    report.centres = find_centres(allowed);
     choose_sublattices();
     report.hexes = accept();
-    merge(report);
-    drop_unused_vertices(mesh_);
-    report.vertices_after = mesh_.points.size();
     return report;
+  }
+
+  /// Takes the given centres.
+  MixReport take(std::span<const VertexId> centres) {
+    MixReport report;
+    for (const VertexId v : centres) {
+      if (is_centre(v)) {
+        state_[v] = kChosen;
+        ++report.centres;
+      }
+    }
+    report.hexes = accept();
+    return report;
+  }
+
+  /// The centres of the hexes, ascending.
+  [[nodiscard]] std::vector<VertexId> hexes() const {
+    std::vector<VertexId> centres;
+    for (std::size_t v = 0; v < state_.size(); ++v) {
+      if (state_[v] == kHex) {
+        centres.push_back(static_cast<VertexId>(v));
+      }
+    }
+    return centres;
+  }
+
+  [[nodiscard]] bool is_hex(VertexId v) const { return state_[v] == kHex; }
+  [[nodiscard]] MaterialId material_of(VertexId centre) const {
+    return mesh_.materials[around_.of(centre)[0]];
+  }
+
+  /// The hex and the quads of a star; false when it is not a centre's.
+  bool cluster_of(VertexId v, Cluster& cluster) const {
+    std::array<VertexId, kCorners> corners{};
+    if (!link_of(v, cluster.axis, corners)) {
+      return false;
+    }
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      if (!quad_around(v, cluster.axis[a], cluster.quad[a])) {
+        return false;
+      }
+      for (const VertexId q : cluster.quad[a]) {
+        if (!std::binary_search(corners.begin(), corners.end(), q)) {
+          return false;
+        }
+      }
+    }
+    return close_hex(cluster);
   }
 
  private:
@@ -172,24 +217,6 @@ class Mixer {
     return std::adjacent_find(nodes.begin(), nodes.end()) == nodes.end();
   }
 
-  bool cluster_of(VertexId v, Cluster& cluster) const {
-    std::array<VertexId, kCorners> corners{};
-    if (!link_of(v, cluster.axis, corners)) {
-      return false;
-    }
-    for (std::size_t a = 0; a < kAxes; ++a) {
-      if (!quad_around(v, cluster.axis[a], cluster.quad[a])) {
-        return false;
-      }
-      for (const VertexId q : cluster.quad[a]) {
-        if (!std::binary_search(corners.begin(), corners.end(), q)) {
-          return false;
-        }
-      }
-    }
-    return close_hex(cluster);
-  }
-
   [[nodiscard]] bool is_good(const Cluster& cluster) const {
     std::array<Vec3, 8> hex;
     std::transform(cluster.hex.begin(), cluster.hex.end(), hex.begin(),
@@ -217,11 +244,11 @@ class Mixer {
     return uniform && cluster_of(v, cluster) && is_good(cluster);
   }
 
-  std::size_t find_centres() {
+  std::size_t find_centres(std::span<const std::uint8_t> allowed) {
     std::size_t count = 0;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : count)
     for (std::size_t v = 0; v < state_.size(); ++v) {
-      if (is_centre(static_cast<VertexId>(v))) {
+      if ((allowed.empty() || allowed[v] != 0) && is_centre(static_cast<VertexId>(v))) {
         state_[v] = kCentre;
         ++count;
       }
@@ -290,51 +317,69 @@ class Mixer {
     return count;
   }
 
-  void merge(MixReport& report) {
-    for (std::size_t v = 0; v < state_.size(); ++v) {
-      if (state_[v] != kHex) {
-        continue;
-      }
-      Cluster cluster;
-      cluster_of(static_cast<VertexId>(v), cluster);
-      const MaterialId material = mesh_.materials[around_.of(static_cast<VertexId>(v))[0]];
-      mesh_.hexes.add(cluster.hex, material);
-      for (std::size_t a = 0; a < kAxes; ++a) {
-        if (state_[cluster.axis[a]] != kHex) {
-          const auto& q = cluster.quad[a];
-          mesh_.pyramids.add({q[0], q[1], q[2], q[3], cluster.axis[a]}, material);
-        }
-      }
-    }
-    report.pyramids = mesh_.pyramids.size();
-    report.tets_merged = drop_merged_tets();
-  }
-
-  std::size_t drop_merged_tets() {
-    std::size_t kept = 0;
-    const std::size_t count = mesh_.tets.size();
-    for (std::size_t t = 0; t < count; ++t) {
-      const auto& tet = mesh_.tets[t];
-      if (std::none_of(tet.begin(), tet.end(), [&](VertexId v) { return state_[v] == kHex; })) {
-        mesh_.tets[kept] = tet;
-        mesh_.materials[kept++] = mesh_.materials[t];
-      }
-    }
-    mesh_.tets.resize(kept);
-    mesh_.materials.resize(kept);
-    return count - kept;
-  }
-
-  MaterialMesh& mesh_;
+  const MaterialMesh& mesh_;
   const MixOptions& options_;
   VertexCells around_;
   std::vector<std::uint8_t> state_;
 };
 
+/// Drops the tets of the stars of hexes; returns how many there were.
+std::size_t drop_merged_tets(MaterialMesh& mesh, const Mixer& mixer) {
+  std::size_t kept = 0;
+  const std::size_t count = mesh.tets.size();
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto& tet = mesh.tets[t];
+    if (std::none_of(tet.begin(), tet.end(), [&](VertexId v) { return mixer.is_hex(v); })) {
+      mesh.tets[kept] = tet;
+      mesh.materials[kept++] = mesh.materials[t];
+    }
+  }
+  mesh.tets.resize(kept);
+  mesh.materials.resize(kept);
+  return count - kept;
+}
+
+/// Puts hexes and pyramids in place of the stars that the mixer, which looks at this mesh, has chosen.
+MixReport merge(MaterialMesh& mesh, const Mixer& mixer, MixReport report) {
+  report.vertices_before = mesh.points.size();
+  for (const VertexId v : mixer.hexes()) {
+    Cluster cluster;
+    mixer.cluster_of(v, cluster);
+    const MaterialId material = mixer.material_of(v);
+    mesh.hexes.add(cluster.hex, material);
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      if (!mixer.is_hex(cluster.axis[a])) {
+        const auto& q = cluster.quad[a];
+        mesh.pyramids.add({q[0], q[1], q[2], q[3], cluster.axis[a]}, material);
+      }
+    }
+  }
+  report.pyramids = mesh.pyramids.size();
+  report.tets_merged = drop_merged_tets(mesh, mixer);
+  drop_unused_vertices(mesh);
+  report.vertices_after = mesh.points.size();
+  return report;
+}
+
 }  // namespace
 
 MixReport mix_elements(MaterialMesh& mesh, const MixOptions& options) {
-  return Mixer(mesh, options).run();
+  Mixer mixer(mesh, options);
+  const MixReport report = mixer.choose({});
+  return merge(mesh, mixer, report);
+}
+
+std::vector<VertexId> choose_centres(const MaterialMesh& mesh, const MixOptions& options,
+                                     std::span<const std::uint8_t> allowed) {
+  Mixer mixer(mesh, options);
+  mixer.choose(allowed);
+  return mixer.hexes();
+}
+
+MixReport merge_stars(MaterialMesh& mesh, const MixOptions& options, std::span<const VertexId> centres) {
+  Mixer mixer(mesh, options);
+  const MixReport report = mixer.take(centres);
+  return merge(mesh, mixer, report);
 }
 
 }  // namespace cbc3d

@@ -10,6 +10,8 @@
 //                   tets had there.
 #pragma once
 
+#include <span>
+
 #include "mesher/topology/material_mesh.hpp"
 
 namespace cbc3d {
@@ -32,5 +34,14 @@ struct MixReport {
 /// connected region the larger of its two interlaced cubic lattices becomes hexes. Surfaces and interfaces
 /// keep their facets; inner vertices that no cell uses any more are dropped.
 MixReport mix_elements(MaterialMesh& mesh, const MixOptions& options);
+
+/// The centres whose stars `mix_elements` would merge, ascending, when only vertices with a nonzero entry in
+/// `allowed` may be centres; `allowed` has one entry for each vertex.
+std::vector<VertexId> choose_centres(const MaterialMesh& mesh, const MixOptions& options,
+                                     std::span<const std::uint8_t> allowed);
+
+/// Merges the stars of the given centres, each only while it is uniform and good; MixReport::centres counts
+/// those. Of two centres that are corners of each other's hex the first is merged.
+MixReport merge_stars(MaterialMesh& mesh, const MixOptions& options, std::span<const VertexId> centres);
 
 }  // namespace cbc3d

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "mesher/core/error.hpp"
@@ -227,6 +228,15 @@ void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
   }
 }
 
+void warn_of_missing_hexes(const MeshImageOptions& options, MeshImageReport& report) {
+  if (options.mixed && report.mix.hexes == 0) {
+    report.warnings.emplace_back(
+        "mixed: the mesh has no hexahedra, for no label is thick enough for coarse uniform elements inside; "
+        "a "
+        "smaller lattice_spacing_mm may help");
+  }
+}
+
 /// Where the image has more parts than so few elements can hold, or the lattice is too coarse for so many.
 void warn_of_elements(const MeshImageOptions& options, std::size_t tets, MeshImageReport& report) {
   const auto wanted = static_cast<double>(options.elements);
@@ -282,6 +292,57 @@ RefineResult refine_for(Lattice& lattice, const ImageDomain& domain, const MeshI
   return result;
 }
 
+/// The hexes that the improvement works around. They have their places in the lattice, unless a deformation
+/// has moved its vertices.
+HexCore choose_core(const MaterialMesh& mesh, const ImageDomain& domain, const ImproveOptions& improve,
+                    const MixOptions& mix) {
+  const double reach_mm = improve.reach_mm > 0 ? improve.reach_mm : tolerances::kReach * domain.scale_mm();
+  const double natural_mm = tolerances::kEdgesPerReach * reach_mm;
+  const double surface_edge_mm = improve.surface_edge_mm > 0 ? improve.surface_edge_mm : natural_mm;
+  const double longest_mm = tolerances::kLargestInner * surface_edge_mm / tolerances::kEdgesPerReach;
+  const std::vector<double> of_material =
+      values_of_materials(domain.labels(), improve.size_mm, std::numeric_limits<double>::infinity());
+  return choose_hex_core(mesh,
+                         {.surface_edge_mm = surface_edge_mm,
+                          .gradation = improve.gradation,
+                          .longest_mm = longest_mm,
+                          .longest_of_material_mm = of_material},
+                         mix);
+}
+
+/// The improvement, and around it what mixed elements need: a core that stays, and its merging.
+void improve_stage(MaterialMesh& mesh, const ImageDomain& domain, const MeshImageOptions& options,
+                   ImproveOptions& improve, StageLog& log, const Progress& progress,
+                   MeshImageReport& report) {
+  HexCore core;
+  MixOptions mix = options.mix;
+  mix.red_only = options.deform.iterations == 0;
+  if (options.mixed) {
+    core = log.run("hex_core", 0.5, [&] { return choose_core(mesh, domain, improve, mix); });
+  }
+  // What is merged afterwards counts as one cell.
+  improve.target_tets = options.elements > 0 ? options.elements + core.cells_saved : 0;
+  report.improve = log.run("improvement", 0.5, [&] {
+    return improve_mesh(
+        mesh, domain, improve,
+        [&](int round) {
+          progress.step("improvement, round " + std::to_string(round + 1),
+                        std::min(0.95, 0.5 + 0.06 * round));
+        },
+        core.fixed);
+  });
+  log.dump("5_improved_mesh", mesh);
+  if (options.topology.enabled && options.refine.keep_topology) {
+    compare_topology(domain.image(), mesh, report);
+  }
+  if (options.mixed) {
+    report.mix = log.run("mixed_elements", 0.97, [&] { return merge_hex_core(mesh, core, mix); });
+    log.dump("6_mixed_mesh", mesh);
+  }
+  warn_of_angles(options, report);
+  warn_of_elements(options, mesh.cell_count(), report);
+}
+
 /// From the clean image to the mesh in local mm.
 MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions& options, StageLog& log,
                               const Progress& progress, MeshImageReport& report) {
@@ -292,7 +353,6 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
 
   RefineOptions refine = refine_options(image, options);
   ImproveOptions improve = options.improve;
-  improve.target_tets = options.elements;
   improve.keep_topology = options.topology.enabled && options.refine.keep_topology;
   if (options.edge_length_mm > 0 && improve.enabled) {
     scale_lengths(options.edge_length_mm / (tolerances::kEdgesPerReach * refine.max_distance_mm), refine,
@@ -330,7 +390,7 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
   report.warnings.insert(report.warnings.end(), report.refine.warnings.begin(), report.refine.warnings.end());
   warn_of_losses(image, mesh, report);
 
-  if (options.mixed) {
+  if (options.mixed && !options.improve.enabled) {
     report.mix = log.run("mixed_elements", 0.53, [&] { return mix_elements(mesh, options.mix); });
     log.dump("3_mixed_mesh", mesh);
   }
@@ -349,33 +409,23 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
                                 ": elements stay below the minimum quality; on_failure recover goes on");
     }
   }
-  if (options.improve.enabled && !options.mixed) {
-    report.improve = log.run("improvement", 0.5, [&] {
-      return improve_mesh(mesh, domain, improve, [&](int round) {
-        progress.step("improvement, round " + std::to_string(round + 1), std::min(0.95, 0.5 + 0.06 * round));
-      });
-    });
-    log.dump("5_improved_mesh", mesh);
-    if (options.topology.enabled && options.refine.keep_topology) {
-      compare_topology(image, mesh, report);
-    }
-    warn_of_angles(options, report);
-    warn_of_elements(options, mesh.tets.size(), report);
+  if (options.improve.enabled) {
+    improve_stage(mesh, domain, options, improve, log, progress, report);
   }
+  warn_of_missing_hexes(options, report);
   warn_of_topology_differences(report);
   return mesh;
 }
 
 /// A wish that nothing would come of is refused.
 void require_dial_has_effect(const MeshImageOptions& options) {
-  const bool improves = options.improve.enabled && !options.mixed;
+  const bool improves = options.improve.enabled;
   for (const auto& [name, asked] : {std::pair{"elements", options.elements > 0},
                                     std::pair{"edge_length_mm", options.edge_length_mm > 0}}) {
     if (asked && !improves) {
       throw InputError(std::string(name) +
-                           ": only the improvement of preset quality, without mixed elements, keeps to it; "
-                           "leave it out or "
-                           "set lattice_spacing_mm",
+                           ": only the improvement of preset quality keeps to it; leave it out or set "
+                           "lattice_spacing_mm",
                        name);
     }
   }

@@ -14,7 +14,7 @@
 #include "mesher/lattice/check_topology.hpp"
 #include "mesher/lattice/label_betti.hpp"
 #include "mesher/lattice/refine_lattice.hpp"
-#include "mesher/mixed/mix_elements.hpp"
+#include "mesher/mixed/hex_core.hpp"
 #include "mesher/preprocess/clean_image.hpp"
 
 namespace cbc3d {
@@ -32,7 +32,9 @@ struct MeshImageOptions {
   ImageDomainOptions domain;
   RefineOptions refine;
   TopologyOptions topology;
-  bool mixed = false;  ///< hexes and pyramids in uniform regions
+  /// Hexes and pyramids in uniform regions: with the improvement those of the coarse inside (hex_core.hpp),
+  /// else all that the lattice has.
+  bool mixed = false;
   MixOptions mix;
   DeformOptions deform;
   ImproveOptions improve;

@@ -221,7 +221,9 @@ std::vector<OptionRow> mixed_rows() {
   return {on_off(
       {.name = "mixed",
        .group = OptionGroup::mixed,
-       .text = "hexes in uniform regions and pyramids between them and the tets, without the improvement"},
+       .text =
+           "hexes in uniform regions and pyramids between them and the tets; with the improvement where the "
+           "inside is coarse"},
       [](auto& o) -> auto& { return o.mixed; })};
 }
 

@@ -94,9 +94,6 @@ using OptionSettings = std::vector<std::pair<std::string, OptionValue>>;
 /// Applies them, those of single labels last. Throws OptionError.
 void apply_settings(const OptionSettings& settings, MeshImageOptions& options);
 
-/// True when the settings turn the switch on.
-bool is_on(const OptionSettings& settings, std::string_view name);
-
 /// Throws OptionError when an option has a number for a label that the image lacks.
 void require_known_labels(const MeshImageOptions& options, const LabelImage& image);
 

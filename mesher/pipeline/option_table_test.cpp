@@ -156,7 +156,7 @@ TEST(OptionTable, DefaultsAreThoseOfThePreset) {
 TEST(OptionTable, OnlyPresetsThatImproveHaveOptionsOfTheImprovement) {
   const OptionRow& row = find_option("deviation");
   EXPECT_TRUE(has_option(preset_options("quality", ImageFrame()), row));
-  EXPECT_FALSE(has_option(preset_options("quality", ImageFrame(), true), row));
+  EXPECT_FALSE(has_option(deformation_preset_options("quality"), row));
   EXPECT_FALSE(has_option(preset_options("paper", ImageFrame()), row));
 }
 
@@ -173,10 +173,9 @@ TEST(OptionSettings, LabelsTakeFromAllWhatIsNotTheirOwnWhateverTheOrder) {
 
 TEST(OptionSettings, TheLastOfANameCounts) {
   const OptionSettings settings = {{"mixed", true}, {"iterations", 3}, {"mixed", "false"}, {"iterations", 4}};
-  EXPECT_FALSE(is_on(settings, "mixed"));
-  EXPECT_FALSE(is_on(settings, "topology-checks"));
   MeshImageOptions options;
   apply_settings(settings, options);
+  EXPECT_FALSE(options.mixed);
   EXPECT_EQ(options.deform.iterations, 4);
 }
 

@@ -182,12 +182,6 @@ void apply_settings(const OptionSettings& settings, MeshImageOptions& options) {
   }
 }
 
-bool is_on(const OptionSettings& settings, std::string_view name) {
-  const auto last = std::find_if(settings.rbegin(), settings.rend(),
-                                 [&](const auto& setting) { return setting.first == name; });
-  return last != settings.rend() && std::get<bool>(checked_value(find_option(name), last->second));
-}
-
 void require_known_labels(const MeshImageOptions& options, const LabelImage& image) {
   for (const OptionRow& row : option_table()) {
     if (row.kind != OptionKind::label_numbers) continue;

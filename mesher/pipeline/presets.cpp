@@ -1,5 +1,7 @@
 #include "mesher/pipeline/presets.hpp"
 
+#include <algorithm>
+
 #include "mesher/core/error.hpp"
 #include "mesher/domain/tolerances.hpp"
 
@@ -31,33 +33,37 @@ RefineOptions refinement_by_distance(double diagonal_mm) {
           .keep_topology = true};
 }
 
-/// The deformation in place of the improvement, which does not work on hexes and pyramids.
-MeshImageOptions mixed_quality_options(double diagonal_mm) {
-  return {.clean = {.region_tolerance = 0},
-          .refine = {.max_distance_mm = 2 * diagonal_mm},
-          .deform = {.displacement = kTargetsOnBoundary}};
-}
-
 MeshImageOptions quality_options(double diagonal_mm) {
   const RefineOptions refine = refinement_by_distance(diagonal_mm);
   return {.clean = {.region_tolerance = 0, .well_composed = true},
           .refine = refine,
           .topology = {.enabled = true, .one_face_rule = false, .image_passes = 4, .small_component = 0},
+          .mix = {.min_scaled_jacobian = 0.5},
           .deform = {.iterations = 0, .displacement = kTargetsOnBoundary},
           .improve = {.enabled = true, .reach_mm = refine.max_distance_mm}};
 }
 
+void require_known_preset(const std::string& name) {
+  const std::vector<std::string> names = preset_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw InputError("preset '" + name + "' is unknown; give quality or paper", "preset");
+  }
+}
+
 }  // namespace
 
-MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame, bool mixed) {
+MeshImageOptions preset_options(const std::string& name, const ImageFrame& frame) {
+  require_known_preset(name);
+  return name == "quality" ? quality_options(frame.voxel_diagonal_mm()) : MeshImageOptions{};
+}
+
+MeshImageOptions deformation_preset_options(const std::string& name) {
+  require_known_preset(name);
+  MeshImageOptions options;
   if (name == "quality") {
-    return mixed ? mixed_quality_options(frame.voxel_diagonal_mm())
-                 : quality_options(frame.voxel_diagonal_mm());
+    options.deform.displacement = kTargetsOnBoundary;
   }
-  if (name == "paper") {
-    return {};
-  }
-  throw InputError("preset '" + name + "' is unknown; give quality or paper", "preset");
+  return options;
 }
 
 }  // namespace cbc3d

@@ -171,6 +171,7 @@ TEST(Presets, AreNamedAndOthersRefused) {
   const ImageFrame frame;
   for (const std::string& name : preset_names()) {
     EXPECT_NO_THROW(preset_options(name, frame)) << name;
+    EXPECT_NO_THROW(deformation_preset_options(name)) << name;
   }
   try {
     preset_options("fast", frame);
@@ -179,6 +180,17 @@ TEST(Presets, AreNamedAndOthersRefused) {
     EXPECT_NE(std::string(error.what()).find("fast"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("quality or paper"), std::string::npos);
   }
+}
+
+TEST(Presets, TheDeformationOfAGivenMeshReplacesTheImprovement) {
+  for (const std::string& name : preset_names()) {
+    const MeshImageOptions options = deformation_preset_options(name);
+    EXPECT_FALSE(options.improve.enabled) << name;
+    EXPECT_GT(options.deform.iterations, 0) << name;
+  }
+  EXPECT_EQ(deformation_preset_options("quality").deform.displacement.target_position,
+            TargetPosition::voxel_faces);
+  EXPECT_THROW(deformation_preset_options("fast"), InputError);
 }
 
 TEST(Presets, DistancesOfTheQualityPresetAreInVoxelDiagonals) {
@@ -191,7 +203,6 @@ TEST(Presets, DistancesOfTheQualityPresetAreInVoxelDiagonals) {
   EXPECT_EQ(unit.improve.reach_mm, unit.refine.max_distance_mm);
   EXPECT_EQ(large.improve.deviation_diagonals, unit.improve.deviation_diagonals);
   EXPECT_TRUE(unit.improve.enabled);
-  EXPECT_FALSE(preset_options("quality", frame, true).improve.enabled);  // it knows no hexes
   EXPECT_FALSE(preset_options("paper", frame).improve.enabled);
 }
 

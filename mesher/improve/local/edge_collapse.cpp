@@ -22,7 +22,7 @@ class EdgeCollapser {
   [[nodiscard]] bool may_go_on() const { return tets_ > options_.least_tets; }
 
   bool try_vertex(VertexId u) {
-    if (mesh_.locked(u) || !mesh_.in_use(u)) {
+    if (!mesh_.free(u) || !mesh_.in_use(u)) {
       return false;
     }
     mesh_.star(u, patch_.star);
@@ -325,7 +325,7 @@ class EdgeCollapser {
   bool try_merges(VertexId u) {
     targets_.clear();
     for (const VertexId v : patch_.around) {
-      if (!mesh_.locked(v) && class_allows(v) && has_class_of(u, v)) {
+      if (mesh_.free(v) && class_allows(v) && has_class_of(u, v)) {
         targets_.emplace_back((mesh_.point(u) - mesh_.point(v)).squared_norm(), v);
       }
     }

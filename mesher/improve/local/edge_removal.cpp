@@ -45,7 +45,7 @@ class EdgeRemover {
   [[nodiscard]] MaterialId ring_material(std::size_t i) const { return mesh_.material(ring_.tets[i]); }
 
   bool load(VertexId a, VertexId b) {
-    if ((mesh_.locked(a) && mesh_.locked(b)) || !mesh_.ring(a, b, ring_) ||
+    if ((!mesh_.free(a) && !mesh_.free(b)) || !mesh_.ring(a, b, ring_) ||
         ring_.vertices.size() > kLargestRing) {
       return false;
     }

@@ -25,7 +25,7 @@ class EdgeSplitter {
  private:
   /// Loads the ring of an edge that lies inside one material.
   bool load(VertexId a, VertexId b) {
-    return !(mesh_.locked(a) && mesh_.locked(b)) && mesh_.ring(a, b, ring_) && ring_.closed &&
+    return (mesh_.free(a) || mesh_.free(b)) && mesh_.ring(a, b, ring_) && ring_.closed &&
            std::all_of(ring_.tets.begin(), ring_.tets.end(),
                        [&](TetId t) { return mesh_.material(t) == mesh_.material(ring_.tets[0]); });
   }

@@ -148,11 +148,11 @@ struct LocalMesh {
   std::vector<Vec3> points;
   TetNodes tets;
   std::vector<MaterialId> materials;
-  std::vector<std::uint8_t> locked;
+  std::vector<std::uint8_t> hold;      // TetComplex::Hold
   std::vector<std::uint32_t> tets_at;  // number of tets around each vertex
 
-  LocalMesh(const MaterialMesh& mesh, const std::vector<TetId>& part,
-            const std::vector<std::uint32_t>& owner) {
+  LocalMesh(const MaterialMesh& mesh, const std::vector<TetId>& part, const std::vector<std::uint32_t>& owner,
+            std::span<const std::uint8_t> fixed) {
     for (const TetId t : part) {
       vertices.insert(vertices.end(), mesh.tets[t].begin(), mesh.tets[t].end());
     }
@@ -161,7 +161,10 @@ struct LocalMesh {
     tets_at.assign(vertices.size(), 0);
     for (const VertexId v : vertices) {
       points.push_back(mesh.points[v]);
-      locked.push_back(owner[v] == kShared ? 1 : 0);
+      const bool stays = v < fixed.size() && fixed[v] != 0;
+      hold.push_back(owner[v] == kShared ? TetComplex::kLocked
+                     : stays             ? TetComplex::kFixed
+                                         : TetComplex::kFree);
     }
     for (const TetId t : part) {
       std::array<VertexId, 4> nodes{};
@@ -228,7 +231,7 @@ std::vector<std::size_t> largest_first(const std::vector<std::vector<TetId>>& pa
 
 Patch make_patch(LocalMesh& local, const PatchRules& rules, const SamplesOfVertices& covered) {
   Patch patch{.mesh = TetComplex(std::move(local.points), std::move(local.tets), std::move(local.materials),
-                                 std::move(local.locked)),
+                                 std::move(local.hold)),
               .cover = SurfaceCover(rules.samples, rules.reach_mm, rules.own_reach_mm),
               .sets = {},
               .boundaries = rules.boundaries,
@@ -308,7 +311,7 @@ void improve_in_patches(MaterialMesh& mesh, std::vector<VertexId>& covering, con
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::size_t p = order[i];
-    LocalMesh local(mesh, cut.parts[p], cut.owner);
+    LocalMesh local(mesh, cut.parts[p], cut.owner, rules.fixed);
     Patch patch = make_patch(local, rules, covered);
     improve(patch);
     give_back(patch, local, mesh, covering);

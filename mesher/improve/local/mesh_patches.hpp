@@ -20,7 +20,10 @@ struct PatchRules {
   std::size_t patch_tets = 30000;              ///< tets of a patch, about
   std::span<const float> own_reach_mm = {};    ///< a sample's own reach where above 0; empty: none has one
   std::span<const std::uint8_t> locked = {};   ///< vertices that must stay; empty: none
-  std::span<const double> longest_mm = {};     ///< Patch::longest_mm of every vertex; empty: no limit
+  /// Of the first vertices, nonzero: stays, with the tets between such vertices; not on interfaces; empty:
+  /// none.
+  std::span<const std::uint8_t> fixed = {};
+  std::span<const double> longest_mm = {};         ///< Patch::longest_mm of every vertex; empty: no limit
   std::span<const double> smoothness_cap_mm = {};  ///< of every material, see Patch; empty: no limit
 };
 

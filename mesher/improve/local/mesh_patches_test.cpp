@@ -6,6 +6,7 @@
 
 #include "mesher/improve/local/edge_collapse.hpp"
 #include "mesher/improve/local/edge_removal.hpp"
+#include "mesher/improve/local/edge_split.hpp"
 #include "mesher/improve/local/mesh_patches.hpp"
 #include "mesher/improve/local/testing_trial.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
@@ -50,6 +51,47 @@ TEST(MeshPatches, TheCutsAreInvisibleAndKeepTheMesh) {
     EXPECT_EQ(trial.characteristics(), chi);
   }
   EXPECT_LT(trial.mesh.tets.size(), tets * 3 / 4);
+}
+
+TEST(MeshPatches, FixedVerticesStayAndOthersCollapseOntoThem) {
+  Trial trial(touching_balls());
+  trial.rules.patch_tets = 200;
+  const auto sets =
+      vertex_materials(trial.mesh.tets, trial.mesh.materials,
+                       tet_neighbours(trial.mesh.tets, trial.mesh.points.size()), trial.mesh.points.size());
+  std::vector<std::uint8_t> fixed;
+  for (std::size_t v = 0; v < sets.size(); ++v) {  // every third inner vertex
+    fixed.push_back(sets[v].size == 1 && v % 3 == 0 ? 1 : 0);
+  }
+  trial.rules.fixed = fixed;
+  const std::vector<Vec3> before = trial.mesh.points;
+  const auto largest_star_of_fixed = [&] {
+    const VertexCells around = tets_of_vertices(trial.mesh.tets, trial.mesh.points.size());
+    std::size_t largest = 0;
+    for (VertexId v = 0; v < fixed.size(); ++v) {
+      if (fixed[v] != 0) {
+        EXPECT_FALSE(around.of(v).empty());
+        EXPECT_EQ(trial.mesh.points[v], before[v]);
+        largest = std::max(largest, around.of(v).size());
+      }
+    }
+    return largest;
+  };
+  const std::size_t largest = largest_star_of_fixed();
+  const std::size_t covered = covered_count(trial);
+  for (int round = 0; round < 4; ++round) {
+    trial.apply(
+        [&](Patch& p) {
+          relax_vertices(p, kRelax);
+          remove_edges(p, kGood);
+          collapse_edges(p, {.threshold_quality = 0.02, .longest_growth = 5, .optimize_position = true});
+          optimize_worst_angles(p, kGoal);
+          split_edges(p, kGoal);
+        },
+        round);
+    expect_sound(trial, covered);
+  }
+  EXPECT_GT(largest_star_of_fixed(), largest);
 }
 
 }  // namespace

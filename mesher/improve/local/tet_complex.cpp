@@ -17,13 +17,13 @@ std::array<VertexId, 3> face_key(const std::array<VertexId, 4>& nodes, unsigned 
 }  // namespace
 
 TetComplex::TetComplex(std::vector<Vec3> points, TetNodes tets, std::vector<MaterialId> materials,
-                       std::vector<std::uint8_t> locked)
+                       std::vector<std::uint8_t> hold)
     : points_(std::move(points)),
       tets_(std::move(tets)),
       materials_(std::move(materials)),
       across_(tet_neighbours(tets_, points_.size())),
       tet_at_(points_.size(), kNoTet),
-      locked_(std::move(locked)),
+      hold_(std::move(hold)),
       seen_(tets_.size(), 0) {
   for (TetId t = 0; t < tets_.size(); ++t) {
     for (const VertexId v : tets_[t]) {
@@ -308,7 +308,7 @@ bool TetComplex::replace(std::span<const TetId> old, std::span<const FreshTet> f
 VertexId TetComplex::add_vertex(const Vec3& point) {
   points_.push_back(point);
   tet_at_.push_back(kNoTet);
-  locked_.push_back(0);
+  hold_.push_back(kFree);
   return static_cast<VertexId>(points_.size() - 1);
 }
 

@@ -3,7 +3,11 @@
 // Notation: star      the tets around a vertex;
 //           ring      the vertices around an edge, in order, with the tets between them;
 //           facet     a face between two materials; the outside counts as background;
-//           locked    a vertex that must stay, with every face between locked vertices alone.
+//           locked    a vertex that must stay, with every face between locked vertices alone: its star may go
+//                     on outside the complex;
+//           fixed     a vertex that must stay, with every tet between fixed and locked vertices alone. Its
+//           star
+//                     is complete, so that other vertices may collapse onto it.
 #pragma once
 
 #include <algorithm>
@@ -38,15 +42,20 @@ struct EdgeRing {
 
 class TetComplex {
  public:
-  /// All tets must be positive and conforming. `locked` has one entry per vertex.
+  /// What holds a vertex.
+  enum Hold : std::uint8_t { kFree, kLocked, kFixed };
+
+  /// All tets must be positive and conforming. `hold` has one entry per vertex.
   TetComplex(std::vector<Vec3> points, TetNodes tets, std::vector<MaterialId> materials,
-             std::vector<std::uint8_t> locked);
+             std::vector<std::uint8_t> hold);
 
   [[nodiscard]] std::size_t vertex_count() const { return points_.size(); }
   [[nodiscard]] std::size_t tet_slots() const { return tets_.size(); }
   [[nodiscard]] bool alive(TetId t) const { return tets_[t][0] != kNoVertex; }
   [[nodiscard]] bool in_use(VertexId v) const { return tet_at_[v] != kNoTet; }
-  [[nodiscard]] bool locked(VertexId v) const { return locked_[v] != 0; }
+  [[nodiscard]] bool locked(VertexId v) const { return hold_[v] == kLocked; }
+  /// Neither locked nor fixed.
+  [[nodiscard]] bool free(VertexId v) const { return hold_[v] == kFree; }
   [[nodiscard]] const std::array<VertexId, 4>& nodes(TetId t) const { return tets_[t]; }
   [[nodiscard]] MaterialId material(TetId t) const { return materials_[t]; }
   [[nodiscard]] TetId across(TetId t, unsigned n) const { return across_[t][n]; }
@@ -55,7 +64,7 @@ class TetComplex {
   }
   [[nodiscard]] const Vec3& point(VertexId v) const { return points_[v]; }
   void move(VertexId v, const Vec3& to) { points_[v] = to; }
-  void lock(VertexId v) { locked_[v] = 1; }
+  void lock(VertexId v) { hold_[v] = kLocked; }
   [[nodiscard]] double quality(TetId t) const;
 
   /// The star of a vertex that is in use; complete only where the vertex is not locked.
@@ -114,8 +123,8 @@ class TetComplex {
   TetNodes tets_;
   std::vector<MaterialId> materials_;
   TetNeighbours across_;
-  std::vector<TetId> tet_at_;  // some tet of each vertex
-  std::vector<std::uint8_t> locked_;
+  std::vector<TetId> tet_at_;       // some tet of each vertex
+  std::vector<std::uint8_t> hold_;  // of each vertex, a Hold
   std::vector<TetId> free_;
   std::vector<OpenFace> faces_;  // scratch of replace
   std::vector<TetId> placed_;    // likewise

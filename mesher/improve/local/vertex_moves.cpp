@@ -56,7 +56,7 @@ struct VertexMover {
   /// Loads the star and the boundaries of v; false when v cannot be moved.
   bool load(VertexId v) {
     TetComplex& mesh = patch.mesh;
-    if (mesh.locked(v) || !mesh.in_use(v)) {
+    if (!mesh.free(v) || !mesh.in_use(v)) {
       return false;
     }
     mesh.star(v, patch.star);

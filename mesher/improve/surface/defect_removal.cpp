@@ -321,7 +321,7 @@ class DefectRemover {
   /// Improves the neighbourhood of some vertices until no change helps; true when anything was done.
   bool remove(const std::vector<VertexId>& seeds) {
     constexpr int kMostChanges = 20;
-    region_ = ring_of(edits_.complex(), ring_of(edits_.complex(), seeds));
+    region_ = free_region_at(seeds);
     end_of_trials_ = std::min(most_trials_, edits_.trials() + options_.place_trials);
     int changes = 0;
     for (bool going = true; going && changes < kMostChanges && !budget_exhausted();) {
@@ -333,12 +333,19 @@ class DefectRemover {
     return changes > 0;
   }
 
+  /// Two rings of vertices around some, those that are fixed left out, ascending.
+  [[nodiscard]] std::vector<VertexId> free_region_at(const std::vector<VertexId>& seeds) const {
+    std::vector<VertexId> region = ring_of(edits_.complex(), ring_of(edits_.complex(), seeds));
+    std::erase_if(region, [this](VertexId v) { return v < options_.fixed.size() && options_.fixed[v] != 0; });
+    return region;
+  }
+
   /// Carries out steps that reduce the number of folds and make nothing worse.
   void unfold(const std::vector<VertexId>& seeds) {
     constexpr int kMostChanges = 6;
     constexpr std::size_t kTrials = 2000;
     may_trade_ = false;
-    region_ = ring_of(edits_.complex(), ring_of(edits_.complex(), seeds));
+    region_ = free_region_at(seeds);
     end_of_trials_ = std::min(most_trials_, edits_.trials() + kTrials);
     for (int change = 0; change < kMostChanges && !budget_exhausted(); ++change) {
       edits_.meter().look_at(region_);

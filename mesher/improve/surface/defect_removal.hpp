@@ -6,6 +6,8 @@
 // non-manifold. The goal of the angles holds throughout.
 #pragma once
 
+#include <span>
+
 #include "mesher/improve/surface/surface_defects.hpp"
 
 namespace cbc3d {
@@ -19,6 +21,7 @@ struct DefectRemovalOptions {
   bool keep_topology = false;       ///< of the labels of tets that are relabelled (topology_guard.hpp)
   std::size_t most_trials = 0;      ///< trial edits in all; 0: 10,000 and one for every eight tets
   std::size_t place_trials = 8000;  ///< trial edits at one place
+  std::span<const std::uint8_t> fixed = {};  ///< inner vertices, nonzero: make no room; empty: none is fixed
 };
 
 struct DefectRemovalReport {
