@@ -73,15 +73,24 @@ MaterialId material_around(const LabelledComplex& complex, const std::vector<std
   return best;
 }
 
+Vec3 centroid(const LabelledComplex& complex, std::uint32_t tet) {
+  Vec3 sum;
+  for (const VertexId v : complex.tets[tet]) sum += 0.25 * complex.points[v];
+  return sum;
+}
+
 }  // namespace
 
-std::size_t repair_orphans(LabelledComplex& complex, std::size_t tets) {
+std::size_t repair_orphans(LabelledComplex& complex, std::size_t tets,
+                           const std::function<MaterialId(const Vec3&)>& material_at) {
   const Pieces pieces = find_pieces(complex, tets);
   const std::vector<std::uint32_t> largest = largest_pieces(complex, pieces);
   std::size_t changed = 0;
   for (const auto& piece : pieces.small) {
     const MaterialId own = complex.materials[piece.front()];
     if (largest[own] == pieces.of_tet[piece.front()]) continue;
+    const auto is_own = [&](std::uint32_t t) { return material_at(centroid(complex, t)) == own; };
+    if (std::any_of(piece.begin(), piece.end(), is_own)) continue;
     const MaterialId other = material_around(complex, piece);
     if (other == own) continue;
     for (const std::uint32_t t : piece) complex.materials[t] = other;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "mesher/core/mesh.hpp"
@@ -20,9 +21,11 @@ struct LabelledComplex {
 };
 
 /// Gives small pieces of a material to the material around them that has most facets with them: pieces of
-/// fewer than `tets` tets, connected by facets, that are not the largest of their material. So every facet
-/// between two materials was one before. Returns the number of tets that changed.
-std::size_t repair_orphans(LabelledComplex& complex, std::size_t tets);
+/// fewer than `tets` tets, connected by facets, that are not the largest of their material and whose tets all
+/// have other materials at their centroids, by `material_at`. So every facet between two materials was one
+/// before, and what the image has stays. Returns the number of tets that changed.
+std::size_t repair_orphans(LabelledComplex& complex, std::size_t tets,
+                           const std::function<MaterialId(const Vec3&)>& material_at);
 
 /// The mesh of the tets that are not background, with the labels of their materials.
 Mesh mesh_of(const LabelledComplex& complex, const std::vector<Label>& labels);

@@ -31,6 +31,10 @@ LabelledComplex box() {
   return complex;
 }
 
+std::function<MaterialId(const Vec3&)> everywhere(MaterialId material) {
+  return [material](const Vec3&) { return material; };
+}
+
 // A tet with four neighbours, none of which is a neighbour of the box's first tets.
 std::uint32_t inner_tet(const LabelledComplex& complex) {
   for (std::uint32_t t = 150; t < complex.tets.size(); ++t) {
@@ -46,7 +50,7 @@ TEST(LabelRepair, ASingleTetAmongOthersGetsTheirMaterial) {
   complex.materials[0] = complex.materials[complex.neighbours[0][0] == kNoTet ? complex.neighbours[0][1]
                                                                               : complex.neighbours[0][0]] = 2;
   complex.materials[orphan] = 2;
-  EXPECT_EQ(repair_orphans(complex, 8), 1U);
+  EXPECT_EQ(repair_orphans(complex, 8, everywhere(1)), 1U);
   EXPECT_EQ(complex.materials[orphan], 1);
   EXPECT_EQ(complex.materials[0], 2);
 }
@@ -56,7 +60,7 @@ TEST(LabelRepair, AHoleOfBackgroundIsFilledAndTheOutsideStays) {
   const std::uint32_t orphan = inner_tet(complex);
   for (std::uint32_t t = 0; t < 40; ++t) complex.materials[t] = kBackground;
   complex.materials[orphan] = kBackground;
-  EXPECT_EQ(repair_orphans(complex, 8), 1U);
+  EXPECT_EQ(repair_orphans(complex, 8, everywhere(1)), 1U);
   EXPECT_EQ(complex.materials[orphan], 1);
   EXPECT_EQ(complex.materials[5], kBackground);
 }
@@ -65,8 +69,17 @@ TEST(LabelRepair, TheOnlyTetOfAMaterialStays) {
   LabelledComplex complex = box();
   const std::uint32_t only = inner_tet(complex);
   complex.materials[only] = 7;
-  EXPECT_EQ(repair_orphans(complex, 8), 0U);
+  EXPECT_EQ(repair_orphans(complex, 8, everywhere(1)), 0U);
   EXPECT_EQ(complex.materials[only], 7);
+}
+
+TEST(LabelRepair, ASmallPieceThatTheImageHasStays) {
+  LabelledComplex complex = box();
+  const std::uint32_t island = inner_tet(complex);
+  complex.materials[island] = kBackground;
+  for (std::uint32_t t = 0; t < 40; ++t) complex.materials[t] = kBackground;
+  EXPECT_EQ(repair_orphans(complex, 8, everywhere(kBackground)), 0U);
+  EXPECT_EQ(complex.materials[island], kBackground);
 }
 
 TEST(LabelRepair, MeshHasNoBackgroundAndOnlyVerticesInUse) {

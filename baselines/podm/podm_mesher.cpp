@@ -8,7 +8,7 @@
 namespace cbc3d::baselines::podm {
 namespace {
 
-// Pieces with fewer tets than the sampling of a single voxel gives.
+// Orphans are single tets, or a few of them.
 constexpr std::size_t kOrphanTets = 8;
 
 double voxel_delta_mm(const LabelImage& image) {
@@ -62,7 +62,7 @@ PodmResult mesh_with_podm(const LabelImage& image, const PodmOptions& options, S
   stages.start("refine");
   RefinementResult refined = refine(image, oracle, refinement);
   stages.start("repair labels");
-  repair_orphans(refined.complex, kOrphanTets);
+  repair_orphans(refined.complex, kOrphanTets, [&](const Vec3& p) { return oracle.material_at(p); });
   PodmResult result{mesh_of(refined.complex, image.labels), notes_of(image, refined), refined.counts};
   map_to_physical(result.mesh, image.frame);
   stages.stop();
