@@ -18,30 +18,41 @@ inline constexpr std::array<Index3, 6> kFaceSteps{
 /// another material, be it labelled or background; beyond the image all is background.
 class NearestBoundary {
  public:
-  /// Takes 7 bytes per voxel. Throws InputError for an image of more than 65,534 voxels along an axis.
+  /// Takes 7 bytes per voxel of the labels' box. Throws InputError for an image of more than 65,534 voxels
+  /// along an axis.
   explicit NearestBoundary(const LabelImage& image);
 
   /// False for an image without a labelled voxel.
   [[nodiscard]] bool has_boundary() const { return has_boundary_; }
-  /// The boundary voxel nearest to a voxel; the image must have one.
+  /// The box of the labelled voxels and one voxel more on each side, within the image: first and last voxel.
+  [[nodiscard]] const Index3& first() const { return first_; }
+  [[nodiscard]] const Index3& last() const { return last_; }
+  /// The boundary voxel nearest to a voxel in the box; there must be one.
   [[nodiscard]] Index3 nearest(const Index3& voxel) const {
     const auto& of = features_[offset(voxel)];
-    return {of[0], of[1], of[2]};
+    return {of[0] + first_[0], of[1] + first_[1], of[2] + first_[2]};
   }
-  /// The faces of a voxel across which another material lies: bit f for kFaceSteps[f].
+  /// The faces of a voxel in the box across which another material lies: bit f for kFaceSteps[f].
   [[nodiscard]] std::uint8_t faces(const Index3& voxel) const { return faces_[offset(voxel)]; }
 
  private:
   using Feature = std::array<std::uint16_t, 3>;
   static constexpr std::uint16_t kNone = 0xFFFF;
+  class Envelope;
 
-  [[nodiscard]] std::size_t offset(const Index3& v) const { return frame_.offset(v[0], v[1], v[2]); }
+  // Of a voxel of the image in the arrays.
+  [[nodiscard]] std::size_t offset(const Index3& v) const {
+    return frame_.offset(v[0] - first_[0], v[1] - first_[1], v[2] - first_[2]);
+  }
+  void find_box(const LabelImage& image);
   void find_faces(const LabelImage& image);
   void sweep_rows();
   void sweep_axis(std::size_t axis);
+  void sweep_line(Envelope& envelope, Feature* line, Index3 at, std::size_t axis) const;
   [[nodiscard]] double height(const Feature& feature, const Index3& at, std::size_t axis) const;
 
-  ImageFrame frame_;
+  ImageFrame frame_;  // of the box
+  Index3 first_{0, 0, 0}, last_{-1, -1, -1};
   std::vector<std::uint8_t> faces_;
   std::vector<Feature> features_;
   bool has_boundary_ = false;

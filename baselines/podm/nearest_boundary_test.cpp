@@ -29,6 +29,13 @@ void expect_exact(const LabelImage& image) {
   ASSERT_TRUE(boundary.has_boundary());
   for (std::size_t v = 0; v < image.voxels.size(); ++v) {
     const Index3 at = image.frame.index_of(v);
+    bool in_box = true;
+    for (std::size_t a = 0; a < 3; ++a)
+      in_box = in_box && at[a] >= boundary.first()[a] && at[a] <= boundary.last()[a];
+    if (!in_box) {
+      EXPECT_EQ(image.voxels[v], kBackground);
+      continue;
+    }
     const Index3 found = boundary.nearest(at);
     EXPECT_NE(boundary.faces(found), 0);
     EXPECT_NEAR((centre(image, found) - centre(image, at)).squared_norm(),
@@ -57,6 +64,15 @@ TEST(NearestBoundary, FacesAreThoseToOtherMaterialsAndToTheOutside) {
   const NearestBoundary boundary(image);
   EXPECT_EQ(boundary.faces({0, 0, 0}), 0b111101);
   EXPECT_EQ(boundary.faces({1, 0, 0}), 0b111110);
+}
+
+TEST(NearestBoundary, TheBoxIsThatOfTheLabelsWithAMarginInTheImage) {
+  LabelImage image = cbc3d::testing::noise_image(12, 0, 1);
+  image.voxels[image.frame.offset(0, 4, 6)] = 1;
+  image.voxels[image.frame.offset(2, 7, 6)] = 2;
+  const NearestBoundary boundary(image);
+  EXPECT_EQ(boundary.first(), (Index3{0, 3, 5}));
+  EXPECT_EQ(boundary.last(), (Index3{3, 8, 7}));
 }
 
 TEST(NearestBoundary, AnImageWithoutLabelsHasNone) {

@@ -19,13 +19,14 @@ MaterialId SurfaceOracle::material_at(const Vec3& place) const {
   return smooth_->material_at(place);
 }
 
-// The voxel of a place; for one beyond the image the nearest.
+// The voxel of a place; for one beyond the labels' box the nearest in it.
 Index3 SurfaceOracle::voxel_of(const Vec3& place) const {
   Index3 at{};
   for (std::size_t a = 0; a < 3; ++a) {
     const int axis = static_cast<int>(a);
     const double index = std::floor(place[axis] / image_.frame.spacing_mm[axis] + 0.5);
-    at[a] = static_cast<int>(std::clamp(index, 0.0, static_cast<double>(image_.frame.size[a] - 1)));
+    at[a] = static_cast<int>(std::clamp(index, static_cast<double>(boundary_.first()[a]),
+                                        static_cast<double>(boundary_.last()[a])));
   }
   return at;
 }
@@ -35,7 +36,9 @@ double SurfaceOracle::distance_bound_mm(const Vec3& place) const {
   const Vec3 own = centre(voxel);
   // A face is within half a diagonal of a boundary voxel's centre, and the smooth surface as far from that.
   const double slack = (smooth_ ? 1.0 : 0.5) * image_.frame.voxel_diagonal_mm();
-  return (centre(boundary_.nearest(voxel)) - own).norm() - (place - own).norm() - slack;
+  const double way = (place - own).norm();
+  // Beyond the box the surface is as far away as the box, at least.
+  return std::max((centre(boundary_.nearest(voxel)) - own).norm() - way, way - slack) - slack;
 }
 
 // The nearest place on the faces of a boundary voxel. On the face its coordinate is the same number however
@@ -98,8 +101,9 @@ std::optional<Vec3> SurfaceOracle::first_change(const Vec3& from, const Vec3& to
 
 Vec3 SurfaceOracle::bisect(Vec3 own, Vec3 other) const {
   const MaterialId material = material_at(own);
-  constexpr int kHalvings = 24;
-  for (int n = 0; n < kHalvings; ++n) {
+  // The voxels' faces are found exactly in the end; the smooth surface to some 1e-4 of a voxel.
+  const int halvings = smooth_ ? 12 : 24;
+  for (int n = 0; n < halvings; ++n) {
     const Vec3 middle = 0.5 * (own + other);
     (material_at(middle) == material ? own : other) = middle;
   }
