@@ -84,9 +84,10 @@ std::uint8_t faces_of(const LabelImage& image, const Index3& at) {
 
 NearestBoundary::NearestBoundary(const LabelImage& image) : frame_(image.frame) {
   for (const int n : frame_.size) {
-    if (n >= kNone)
+    if (n >= kNone) {
       throw InputError("an image of " + std::to_string(n) +
                        " voxels along an axis is larger than podm can mesh: give at most 65534");
+    }
   }
   find_box(image);
   if (!has_boundary_) return;

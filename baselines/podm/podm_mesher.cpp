@@ -1,8 +1,8 @@
 #include "baselines/podm/podm_mesher.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "baselines/core/missing_labels.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::baselines::podm {
@@ -17,33 +17,13 @@ double voxel_delta_mm(const LabelImage& image) {
   return kVoxelEdges * std::cbrt(h.x * h.y * h.z);
 }
 
-std::string names_of(const LabelImage& image, const std::vector<MaterialId>& materials) {
-  constexpr std::size_t kMostNamed = 10;
-  std::string text = materials.size() == 1 ? "label " : "labels ";
-  for (std::size_t n = 0; n < std::min(kMostNamed, materials.size()); ++n)
-    text += (n == 0 ? "" : ", ") + std::to_string(image.labels[materials[n]]);
-  if (materials.size() > kMostNamed)
-    text += " and " + std::to_string(materials.size() - kMostNamed) + " more";
-  return text;
-}
-
-std::vector<MaterialId> missing_materials(const LabelImage& image, const LabelledComplex& complex) {
-  std::vector<char> present(image.material_count(), 0);
-  for (const MaterialId m : complex.materials) present[m] = 1;
-  const std::vector<std::size_t> voxels = image.voxels_per_material();
-  std::vector<MaterialId> missing;
-  for (std::size_t m = 1; m < voxels.size(); ++m) {
-    if (voxels[m] > 0 && present[m] == 0) missing.push_back(static_cast<MaterialId>(m));
-  }
-  return missing;
-}
-
 std::vector<std::string> notes_of(const LabelImage& image, const RefinementResult& result) {
   std::vector<std::string> notes;
-  if (!result.sampled.empty())
+  if (!result.sampled.empty()) {
     notes.push_back(names_of(image, result.sampled) +
                     ": too small for delta, so sampled at their own voxels");
-  const std::vector<MaterialId> missing = missing_materials(image, result.complex);
+  }
+  const std::vector<MaterialId> missing = missing_materials(image, result.complex.materials);
   if (!missing.empty())
     notes.push_back(names_of(image, missing) + ": not in the mesh, too small even so; give a smaller delta");
   if (result.counts.removals_capped)

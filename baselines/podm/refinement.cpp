@@ -1,5 +1,6 @@
 #include "baselines/podm/refinement.hpp"
 
+#include "baselines/core/missing_labels.hpp"
 #include "baselines/podm/crew.hpp"
 #include "baselines/podm/refiner.hpp"
 
@@ -20,7 +21,7 @@ class Refinement {
     refiner_.start(workers_.front());
     work();
     RefinementResult result;
-    result.sampled = missing_materials();
+    result.sampled = missing_materials(image_, refiner_.materials_present());
     if (!result.sampled.empty()) {
       refiner_.insert_samples(samples_of(result.sampled), workers_.front());
       work();
@@ -32,17 +33,6 @@ class Refinement {
 
  private:
   void work() { Crew<Concurrency>(refiner_, workers_).work(); }
-
-  [[nodiscard]] std::vector<MaterialId> missing_materials() const {
-    std::vector<char> present = refiner_.materials_present();
-    present.resize(image_.material_count(), 0);
-    const std::vector<std::size_t> voxels = image_.voxels_per_material();
-    std::vector<MaterialId> missing;
-    for (std::size_t m = 1; m < voxels.size(); ++m) {
-      if (voxels[m] > 0 && present[m] == 0) missing.push_back(static_cast<MaterialId>(m));
-    }
-    return missing;
-  }
 
   // The centres of voxels and of their faces to other materials: the tets between a centre and three faces
   // around a corner have their circumcentres within the voxel.

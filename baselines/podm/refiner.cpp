@@ -409,13 +409,14 @@ void Refiner<Concurrency>::insert_samples(const std::vector<Vec3>& places, Worke
 }
 
 template <typename Concurrency>
-std::vector<char> Refiner<Concurrency>::materials_present() const {
-  std::vector<char> present;
+std::vector<MaterialId> Refiner<Concurrency>::materials_present() const {
+  std::vector<MaterialId> present;
   for (auto c = dt_.finite_cells_begin(); c != dt_.finite_cells_end(); ++c) {
-    const MaterialId m = c->data.material;
-    if (m >= present.size()) present.resize(m + std::size_t{1}, 0);
-    present[m] = 1;
+    // Tets beside each other in memory often have the same.
+    if (present.empty() || present.back() != c->data.material) present.push_back(c->data.material);
   }
+  std::sort(present.begin(), present.end());
+  present.erase(std::unique(present.begin(), present.end()), present.end());
   return present;
 }
 

@@ -83,7 +83,8 @@ class Refiner {
   /// Inserts surface vertices anywhere; no other worker may be at work.
   void insert_samples(const std::vector<Vec3>& places, Worker& worker);
 
-  [[nodiscard]] std::vector<char> materials_present() const;
+  /// The materials that tets have, each at least once.
+  [[nodiscard]] std::vector<MaterialId> materials_present() const;
   /// The triangulation in arrays; the vertices' and tets' data get their numbers.
   [[nodiscard]] LabelledComplex exported();
 

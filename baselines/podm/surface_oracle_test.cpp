@@ -86,10 +86,10 @@ TEST(SurfaceOracle, CrossingIsTheFirstChangeAlongTheSegment) {
     for (int n = 0; n < 200; ++n) {
       const Vec3 outside = centre + 100 * (random_place(random, -1, 1).normalized());
       const auto found = oracle.crossing(outside, centre);
-      ASSERT_TRUE(found);
-      EXPECT_NEAR((*found - centre).norm(), kRadius, 0.9);
+      ASSERT_TRUE(found.has_value());
+      EXPECT_NEAR((found.value() - centre).norm(), kRadius, 0.9);
       // On the segment, up to the voxel's exact face.
-      EXPECT_LT((*found - centre).cross((outside - centre).normalized()).norm(), 1e-5);
+      EXPECT_LT((found.value() - centre).cross((outside - centre).normalized()).norm(), 1e-5);
     }
     EXPECT_FALSE(oracle.crossing(centre, centre + Vec3{3, 2, 1}));
     EXPECT_FALSE(oracle.crossing({-50, 0, 0}, {-50, 30, 30}));
