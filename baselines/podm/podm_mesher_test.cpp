@@ -210,6 +210,22 @@ TEST(PodmMesher, ALabelOfOneVoxelIsSampledAndSaid) {
   EXPECT_LT(cbc3d::testing::volume_of(result.mesh, 77), 2);
 }
 
+TEST(PodmMesher, EndsOnAnImageOfOneVoxelAtAnyDelta) {
+  const LabelImage image = make_image({1, 1, 1}, {1, 1, 1}, 1, [](const Vec3&) { return 1; });
+  for (const double delta : {0.3, 0.9, 1.0, 1.2, 3.0, 40.0}) {
+    SCOPED_TRACE(delta);
+    const Mesh mesh = run(image, delta).mesh;
+    EXPECT_EQ(labels_of(mesh), std::vector<Label>{1});
+    EXPECT_LT(mesh.tets.size(), 3000U);
+  }
+}
+
+TEST(PodmMesher, EveryVoxelMayHaveALabelOfItsOwn) {
+  LabelImage image = make_image({6, 6, 6}, {1, 1, 1}, 216, [](const Vec3&) { return 0; });
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) image.voxels[v] = static_cast<MaterialId>(v + 1);
+  EXPECT_EQ(labels_of(run(image, 1.2).mesh).size(), 216U);
+}
+
 TEST(PodmMesher, RepeatsItselfWithOneThread) {
   const LabelImage image = cbc3d::testing::noisy_blocks_image(4, 3);
   const Mesh first = run(image, 1.2).mesh, second = run(image, 1.2).mesh;

@@ -52,6 +52,8 @@ Refiner<Concurrency>::Refiner(const LabelImage& image, const SurfaceOracle& orac
     : oracle_(oracle),
       options_(options),
       facet_cosine_(std::cos(options.facet_angle_deg * std::numbers::pi / 180)),
+      least_gap_mm_(kLeastGap * options.delta_mm),
+      sample_gap_mm_(0.2 * image.frame.spacing_mm.min_coeff()),
       dihedral_cosine_(std::cos(options.min_dihedral_deg * std::numbers::pi / 180)),
       surface_(2 * options.delta_mm),
       free_(4 * options.delta_mm) {
@@ -207,7 +209,7 @@ typename Refiner<Concurrency>::Decision Refiner<Concurrency>::decide_by_facet(Ce
     if (!is_bad_facet(cell, facet)) continue;
     const Cell other = cell->neighbor(facet);
     const auto place = oracle_.crossing(cell->data.centre, other->data.centre);
-    if (!place) continue;
+    if (!place || (*place - point(cell, (facet + 1) & 3)).norm() < least_gap_mm_) continue;
     for (const Cell conflicting : {cell, other}) {
       if (is_in_ball(conflicting, *place)) return {Rule::kFacet, *place, VertexKind::kSurface, conflicting};
     }
@@ -220,6 +222,7 @@ template <typename Concurrency>
 bool Refiner<Concurrency>::is_large(Cell cell) const {
   const CellData& data = cell->data;
   if (data.material == kBackground) return false;
+  if (data.radius_mm < least_gap_mm_) return false;
   if (options_.size_mm > 0 && data.radius_mm > options_.size_mm) return true;
   const double least = data.radius_mm / options_.radius_edge_ratio;
   for (int i = 0; i < 3; ++i) {
@@ -393,11 +396,14 @@ Attempt Refiner<Concurrency>::attempt(const Removal& removal, Worker& worker) {
 
 template <typename Concurrency>
 void Refiner<Concurrency>::insert_samples(const std::vector<Vec3>& places, Worker& worker) {
+  const auto always = [](const Vec3&, char) { return true; };
   for (const Vec3& place : places) {
+    // A vertex that is nearly there already does as well, and two would ask for tiny tets between them.
+    if (surface_.any_within(place, sample_gap_mm_, always)) continue;
     typename Dt::Locate_type type{};
     int i = 0, j = 0;
     const Cell cell = dt_.locate(to_point(place), type, i, j);
-    // A vertex that is there already does as well; it must only stay.
+    // A free vertex that is there already must only stay.
     if (type == Dt::VERTEX) {
       cell->vertex(i)->data.kind = VertexKind::kSurface;
       cell->vertex(i)->data.stamp.set(worker.next_stamp());

@@ -100,6 +100,9 @@ class Refiner {
     std::uint64_t stamp = 0;
     bool operator==(const FreeVertex& other) const { return stamp == other.stamp; }
   };
+  // Circumcentres and surface centres nearer than this to a vertex, in deltas, are not inserted, so that the
+  // refinement ends at any surface; at a smooth one it never comes to that.
+  static constexpr double kLeastGap = 0.01;
   static constexpr double kLeastSliver = 0.5;  // circumradius in deltas, so that the refinement ends
   using LockGrid = CGAL::Spatial_lock_grid_3<CGAL::Tag_priority_blocking>;
 
@@ -132,7 +135,7 @@ class Refiner {
 
   const SurfaceOracle& oracle_;
   RefinementOptions options_;
-  double facet_cosine_, dihedral_cosine_;
+  double facet_cosine_, least_gap_mm_, sample_gap_mm_, dihedral_cosine_;
   Vec3 low_, high_;  // of the virtual box
   std::unique_ptr<LockGrid> locks_;
   Dt dt_;
