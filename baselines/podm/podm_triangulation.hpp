@@ -26,18 +26,19 @@ enum class VertexKind : std::uint8_t {
 /// one's address finds by its stamp whether it is still the same. Others may write it at the same time.
 class Stamp {
  public:
-  Stamp() = default;
-  Stamp(const Stamp& other) : value_(other.get()) {}
+  // A recycled element is constructed while others may look at its stamp, so that too is an atomic store.
+  Stamp() { set(0); }
+  Stamp(const Stamp& other) { set(other.get()); }
   Stamp& operator=(const Stamp& other) {
     set(other.get());
     return *this;
   }
   ~Stamp() = default;
-  [[nodiscard]] std::uint64_t get() const { return value_.load(std::memory_order_relaxed); }
-  void set(std::uint64_t value) { value_.store(value, std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t get() const { return std::atomic_ref(value_).load(std::memory_order_relaxed); }
+  void set(std::uint64_t value) { std::atomic_ref(value_).store(value, std::memory_order_relaxed); }
 
  private:
-  std::atomic<std::uint64_t> value_{0};
+  mutable std::uint64_t value_;
 };
 
 struct VertexData {
