@@ -123,7 +123,8 @@ class MesherProgram : public ::testing::TestWithParam<std::string> {
                      {"facet-distance", "0.2"},
                      {"cell-size", "2"},
                      {"blur", "0.4"},
-                     {"sampling-rate", "2"}});
+                     {"sampling-rate", "2"},
+                     {"delta", "0.6"}});
   }
   [[nodiscard]] int run(const MeshJob& wanted) const {
     return exit_code_of(

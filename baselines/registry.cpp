@@ -8,6 +8,7 @@
   FOLDER(cgal)                       \
   FOLDER(cleaver)                    \
   FOLDER(ld)                         \
+  FOLDER(podm)                       \
   FOLDER(tetgen)
 
 namespace cbc3d::baselines {

@@ -29,7 +29,7 @@ TEST(Registry, HoldsEveryMesherOnceAndThoseOfTheTablesInTheirOrder) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   auto next = names.begin();
   for (const char* name :
-       {"cbc3d", "cbc3d-paper", "cbc3d-mixed", "cgal", "cgal-parallel", "cleaver", "ld", "tetgen"}) {
+       {"cbc3d", "cbc3d-paper", "cbc3d-mixed", "cgal", "cgal-parallel", "cleaver", "ld", "podm", "tetgen"}) {
     next = std::find(next, names.end(), name);
     ASSERT_NE(next, names.end()) << name;
   }

@@ -8,6 +8,7 @@
 #include "baselines/cleaver/stencil.hpp"
 #include "baselines/cleaver/triples.hpp"
 #include "baselines/cleaver/warp_vertices.hpp"
+#include "baselines/core/missing_labels.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d::baselines::cleaver {
@@ -54,17 +55,6 @@ LabelledLattice labelled_lattice(const Octree& octree, const ImageIndicators& in
   return result;
 }
 
-std::vector<MaterialId> missing_materials(const LabelImage& image, const std::vector<MaterialId>& found) {
-  std::vector<char> seen(image.material_count(), 0);
-  for (const MaterialId m : found) seen[m] = 1;
-  const std::vector<std::size_t> voxels = image.voxels_per_material();
-  std::vector<MaterialId> missing;
-  for (std::size_t m = 1; m < seen.size(); ++m) {
-    if (seen[m] == 0 && voxels[m] > 0) missing.push_back(static_cast<MaterialId>(m));
-  }
-  return missing;
-}
-
 // The grid cells that hold the voxels of some labels.
 std::vector<Index3> grid_cells_of(const LabelImage& image, const LatticeGrid& grid,
                                   const std::vector<MaterialId>& materials) {
@@ -84,16 +74,6 @@ std::vector<Index3> grid_cells_of(const LabelImage& image, const LatticeGrid& gr
     cells.push_back(cell);
   }
   return cells;
-}
-
-std::string names_of(const LabelImage& image, const std::vector<MaterialId>& materials) {
-  constexpr std::size_t kMostNamed = 10;
-  std::string text = materials.size() == 1 ? "label " : "labels ";
-  for (std::size_t n = 0; n < std::min(kMostNamed, materials.size()); ++n)
-    text += (n == 0 ? "" : ", ") + std::to_string(image.labels[materials[n]]);
-  if (materials.size() > kMostNamed)
-    text += " and " + std::to_string(materials.size() - kMostNamed) + " more";
-  return text;
 }
 
 class Run {
