@@ -325,7 +325,9 @@ class DefectRemover {
     end_of_trials_ = std::min(most_trials_, edits_.trials() + options_.place_trials);
     int changes = 0;
     for (bool going = true; going && changes < kMostChanges && !budget_exhausted();) {
-      edits_.meter().look_at(region_);
+      if (!edits_.meter().look_at(region_)) {
+        break;
+      }
       const DefectMeter::Scope scope = edits_.meter().scope_of(seeds);
       going = !edits_.meter().measure(scope).none_but_folds() && improve_once(seeds, scope);
       changes += going ? 1 : 0;
@@ -348,7 +350,9 @@ class DefectRemover {
     region_ = free_region_at(seeds);
     end_of_trials_ = std::min(most_trials_, edits_.trials() + kTrials);
     for (int change = 0; change < kMostChanges && !budget_exhausted(); ++change) {
-      edits_.meter().look_at(region_);
+      if (!edits_.meter().look_at(region_)) {
+        return;
+      }
       if (edits_.meter().measure(edits_.meter().scope_of(seeds)).folds == 0 || !step_one_vertex(seeds)) {
         return;
       }

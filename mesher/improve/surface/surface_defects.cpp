@@ -76,7 +76,7 @@ void DefectMeter::make_grids() {
   has_grids_ = true;
 }
 
-void DefectMeter::look_at(std::span<const VertexId> vertices) {
+bool DefectMeter::look_at(std::span<const VertexId> vertices) {
   if (!has_grids_) {
     make_grids();
   }
@@ -92,8 +92,13 @@ void DefectMeter::look_at(std::span<const VertexId> vertices) {
   box.grow(limit_mm_);
   vertex_grid_.for_each_near(box.low, box.high, [&](VertexId v) { near.push_back(v); });
   std::sort(near.begin(), near.end());
+  constexpr std::size_t kMostPairs = 20000000;  // of a sample and a vertex
+  if (near_samples_.size() * near.size() > kMostPairs) {
+    return false;
+  }
   list_vertices_near_samples(near);
   list_facets_near(near);
+  return true;
 }
 
 void DefectMeter::list_vertices_near_samples(const std::vector<VertexId>& vertices) {

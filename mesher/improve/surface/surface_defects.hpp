@@ -92,8 +92,9 @@ class DefectMeter {
     std::vector<std::uint32_t> samples;  // that one of them may cover, numbered in the order of look_at
   };
 
-  /// Gathers everything that changes of these vertices may affect.
-  void look_at(std::span<const VertexId> vertices);
+  /// Gathers everything that changes of these vertices may affect. False where that is too much to look at,
+  /// as at elements many times as large as voxels; then nothing may be measured.
+  [[nodiscard]] bool look_at(std::span<const VertexId> vertices);
   /// The scope of vertices that were looked at, at the places where they are now.
   [[nodiscard]] Scope scope_of(std::vector<VertexId> vertices) const;
   /// The defects in which one of the vertices takes part. Where there are more pinches than `most`, only

@@ -52,7 +52,7 @@ TEST(SurfaceDefects, NoneInCleanLayersAndEachKindWhereItIs) {
       EXPECT_LE((mesh.points[v] - samples.back().centre()).norm(), 1.5);
     }
     DefectMeter meter(complex, more, 1);
-    meter.look_at(defects.seeds[0]);
+    ASSERT_TRUE(meter.look_at(defects.seeds[0]));
     const DefectMeter::Scope scope = meter.scope_of(defects.seeds[0]);
     EXPECT_NEAR(meter.measure(scope).uncovered, 1.5, 1e-6);
     EXPECT_EQ(meter.uncovered_samples(scope).size(), 1U);
@@ -78,6 +78,16 @@ TEST(SurfaceDefects, NoneInCleanLayersAndEachKindWhereItIs) {
   DefectMeter meter(complex, image, 1);
   EXPECT_NEAR(meter.far({tip}), 2, 1e-9);  // one millimetre from the plane, of both
   EXPECT_EQ(meter.pinches({tip}), 0U);
+}
+
+TEST(SurfaceDefects, TooManySamplesAndVerticesAreNotLookedAt) {
+  MaterialMesh mesh = two_layers(kSize, kPlane);
+  const std::vector<BoundarySample> many(20000000 / mesh.points.size() + 1, BoundarySample{{3, 3, 3}, 1, 2});
+  const PlaneDomain image = layers(many);
+  const LabelledComplex complex(mesh, image.label_of());
+  const VertexId all_around = 0;
+  EXPECT_TRUE(DefectMeter(complex, image, 0.1).look_at({&all_around, 1}));
+  EXPECT_FALSE(DefectMeter(complex, image, 100).look_at({&all_around, 1}));
 }
 
 }  // namespace
