@@ -7,9 +7,9 @@
 
 #include "mesher/app/image_input.hpp"
 #include "mesher/app/subcommand.hpp"
-#include "mesher/preprocess/grey_check.hpp"
 #include "mesher/core/json_text.hpp"
 #include "mesher/core/read_image.hpp"
+#include "mesher/preprocess/grey_check.hpp"
 
 namespace cbc3d {
 namespace {
