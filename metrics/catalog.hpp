@@ -82,8 +82,8 @@ std::optional<double> elements_per_second(const Figures& figures);
 /// By how much the lowest Dice of a label falls short of 1.
 std::optional<double> dice_shortfall(const Figures& figures);
 /// CPU time over that of the reference work done beside the job, so that a slower or busier machine does not
-/// count. The system's CPU time is left out: it is the price of memory pages, which the reference work does not
-/// ask for, and peak memory is gated by itself.
+/// count. The system's CPU time is left out: it is the price of memory pages, which the reference work does
+/// not ask for, and peak memory is gated by itself.
 std::optional<double> time_ratio(const Figures& figures);
 
 // clang-format off

@@ -28,9 +28,9 @@ inline constexpr double kMostSingleVoxels = 0.05, kMostUnlikeFaces = 0.5;
 /// With fewer labels, noise is as many voxels that stand alone and a share of them above this,
 inline constexpr std::size_t kManySingleVoxels = 2000;
 inline constexpr double kMostNoise = 0.5;
-/// or as many edge contacts (voxel_contacts.hpp) and more of them to a labelled voxel than this. Segmentations
-/// have at most .05, a fine wire mesh; random labels .5. Every contact costs tens of elements and every voxel
-/// alone a hundred, so that a file of some kilobytes would take minutes or hours.
+/// or as many edge contacts (voxel_contacts.hpp) and more of them to a labelled voxel than this.
+/// Segmentations have at most .05, a fine wire mesh; random labels .5. Every contact costs tens of elements
+/// and every voxel alone a hundred, so that a file of some kilobytes would take minutes or hours.
 inline constexpr std::size_t kManyContacts = 2000;
 inline constexpr double kMostContacts = 0.1;
 

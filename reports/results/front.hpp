@@ -60,7 +60,7 @@ struct FrontComparison {
   std::vector<std::optional<double>> values;  ///< of the columns
   std::size_t best = 0;                       ///< column with the best value
   double best_value = 0;
-  double lead = 1;  ///< by which factor the second best is worse
+  double lead = 1;         ///< by which factor the second best is worse
   bool has_rival = false;  ///< there is a second best
 };
 
