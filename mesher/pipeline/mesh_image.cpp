@@ -232,8 +232,7 @@ void warn_of_missing_hexes(const MeshImageOptions& options, MeshImageReport& rep
   if (options.mixed && report.mix.hexes == 0) {
     report.warnings.emplace_back(
         "mixed: the mesh has no hexahedra, for no label is thick enough for coarse uniform elements inside; "
-        "a "
-        "smaller lattice_spacing_mm may help");
+        "a smaller lattice_spacing_mm may help");
   }
 }
 

@@ -16,8 +16,8 @@ namespace cbc3d {
 ///   instead of by the fidelity; its labels are those of the smoothed image. Vertices then move to the
 ///   boundary, and the tets are improved and decimated under guards (stage "improvement") in place of the
 ///   elastic deformation. No region is dropped, and voxels change only where a label's touch at edges or
-///   corners alone, so that it has one topology. Mixed
-///   elements are merged from stars of the lattice deep inside, which the improvement leaves alone.
+///   corners alone, so that it has one topology. Mixed elements are merged from stars of
+///   the lattice deep inside, which the improvement leaves alone.
 /// "paper" is the published method with the published parameters. Where the paper is silent or stops, both
 /// presets do
 ///   the same: sources move along the normal, far pairs of source and target are pulled together, and only

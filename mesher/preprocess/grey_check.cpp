@@ -36,8 +36,8 @@ double share(std::size_t part, std::size_t whole) {
 std::string noise_text(double figure, const char* what, double limit) {
   char text[200];
   std::snprintf(text, sizeof text,
-                "it looks like noise: to 100 labelled voxels come %.0f %s (more than %.0f)", 100 * figure,
-                what, 100 * limit);
+                "it looks like noise: for every 100 labelled voxels there are %.0f %s (more than %.0f)",
+                100 * figure, what, 100 * limit);
   return text;
 }
 

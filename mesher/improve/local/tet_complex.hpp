@@ -6,8 +6,7 @@
 //           locked    a vertex that must stay, with every face between locked vertices alone: its star may go
 //                     on outside the complex;
 //           fixed     a vertex that must stay, with every tet between fixed and locked vertices alone. Its
-//           star
-//                     is complete, so that other vertices may collapse onto it.
+//           star is complete, so that other vertices may collapse onto it.
 #pragma once
 
 #include <algorithm>
