@@ -95,8 +95,9 @@ TEST_F(FaultKinds, ChangedBytesOfCompressedVoxelsAreRefused) {
 }
 
 TEST_F(FaultKinds, ThinLabelsStayInOnePiece) {
-  const auto meshed = [&](const std::string& name, const std::function<int(const Vec3&)>& material) {
-    write_label_image(testing::make_image({20, 20, 14}, {1, 1, 1}, 1, material), at(name));
+  const auto meshed = [&](const std::string& name, const std::function<int(const Vec3&)>& material,
+                          const Index3& size = {20, 20, 14}) {
+    write_label_image(testing::make_image(size, {1, 1, 1}, 1, material), at(name));
     const auto outcome = run_command("mesh " + at(name) + " --quiet --out " + at("o.vtu"));
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.text.find("parts, tunnels"), std::string::npos) << name << ": " << outcome.text;
@@ -113,6 +114,9 @@ TEST_F(FaultKinds, ThinLabelsStayInOnePiece) {
     const double n = p.x - 3;
     return n >= 0 && n <= 10 && p.z == 6 && (p.y == 3 + n || p.y == 4 + n) ? 1 : 0;
   });
+  // A hundred wires, whose lattice has more tets for each boundary voxel than any organ's.
+  const auto wires = [](const Vec3& p) { return std::fmod(p.x, 4) == 0 && std::fmod(p.y, 4) == 0 ? 1 : 0; };
+  meshed("wires.nrrd", wires, {40, 40, 40});
 }
 
 TEST_F(FaultKinds, UnitsOfNiftiScaleSpacingAndOrigin) {

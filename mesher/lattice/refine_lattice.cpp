@@ -381,9 +381,10 @@ class Refiner {
     return is_split || before != now;
   }
 
-  /// Noise asks for the finest lattice everywhere. A real image needs 6 to 15 tets a boundary sample.
+  /// Noise asks for the finest lattice everywhere. A real image needs 6 to 15 tets for each boundary sample,
+  /// a field of wires one voxel thick needs 110.
   bool exceeds_budget() {
-    constexpr std::size_t kTetsPerSample = 40;
+    constexpr std::size_t kTetsPerSample = 150;
     constexpr std::size_t kTets = 250000;
     const std::size_t tets = result_.mesh.tets.size();
     if (!interfaces_ || tets < kTets + kTetsPerSample * interfaces_->sample_count()) {
