@@ -155,6 +155,7 @@ TEST(ImproveMesh, FixedVerticesAndTheTetsBetweenThemStay) {
   const double core_mm = 10;  // of the radius of 16.2: what is fixed is far from the surface
   MaterialMesh start = testing::lattice_mesh(image, tolerances::kReach);
   std::vector<std::uint8_t> fixed;
+  fixed.reserve(start.points.size());
   for (const Vec3& p : start.points) {
     fixed.push_back((p - kBallCentre).norm() < core_mm ? 1 : 0);
   }

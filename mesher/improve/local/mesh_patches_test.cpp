@@ -60,6 +60,7 @@ TEST(MeshPatches, FixedVerticesStayAndOthersCollapseOntoThem) {
       vertex_materials(trial.mesh.tets, trial.mesh.materials,
                        tet_neighbours(trial.mesh.tets, trial.mesh.points.size()), trial.mesh.points.size());
   std::vector<std::uint8_t> fixed;
+  fixed.reserve(sets.size());
   for (std::size_t v = 0; v < sets.size(); ++v) {  // every third inner vertex
     fixed.push_back(sets[v].size == 1 && v % 3 == 0 ? 1 : 0);
   }
