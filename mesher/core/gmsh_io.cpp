@@ -205,7 +205,7 @@ void require_gmsh_labels(const std::vector<Label>& labels, const std::filesystem
   }
 }
 
-void write_gmsh(const Mesh& mesh, const std::filesystem::path& path) {
+void write_gmsh(const Mesh& mesh, const std::filesystem::path& path, const LabelNames& names) {
   const std::vector<Label> labels = labels_of(mesh);
   require_gmsh_labels(labels, path);
   std::FILE* out = std::fopen(path.c_str(), "wb");
@@ -214,7 +214,7 @@ void write_gmsh(const Mesh& mesh, const std::filesystem::path& path) {
   }
   std::fprintf(out, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%zu\n", labels.size());
   for (const Label label : labels) {
-    std::fprintf(out, "3 %d \"label_%d\"\n", label, label);
+    std::fprintf(out, "3 %d \"%s\"\n", label, names.identifier(label).c_str());
   }
   std::fprintf(out, "$EndPhysicalNames\n$Nodes\n%zu\n", mesh.points.size());
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {

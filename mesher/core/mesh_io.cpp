@@ -156,14 +156,14 @@ Format format_of(const fs::path& path) {
                    "'; use .vtu, .vtk or .msh");
 }
 
-void write_as(Format format, const Mesh& mesh, const fs::path& path) {
+void write_as(Format format, const Mesh& mesh, const fs::path& path, const MeshFileOptions& options) {
   switch (format) {
     case Format::vtu:
       return write_vtu(mesh, path);
     case Format::vtk:
       return write_legacy_vtk(mesh, path);
     case Format::msh:
-      return write_gmsh(mesh, path);
+      return write_gmsh(mesh, path, options.names);
   }
 }
 
@@ -197,11 +197,11 @@ void require_writable_labels(const std::vector<Label>& labels, const fs::path& p
   }
 }
 
-void write_mesh(const Mesh& mesh, const fs::path& path) {
+void write_mesh(const Mesh& mesh, const fs::path& path, const MeshFileOptions& options) {
   const Format format = format_of(path);
   AtomicFile file(path);
   try {
-    write_as(format, mesh, file.temporary());
+    write_as(format, mesh, file.temporary(), options);
   } catch (const JobError&) {  // it names the temporary file
     throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
   }
