@@ -161,7 +161,8 @@ Adapter make(const std::string& name, const std::string& description, const Pres
                                   job.report.string(),
                                   "--threads",
                                   std::to_string(job.threads),
-                                  "--quiet"};
+                                  "--quiet",
+                                  "--long-work"};
     const auto append = [&](const std::vector<std::string>& words) {
       argv.insert(argv.end(), words.begin(), words.end());
     };

@@ -76,7 +76,7 @@ TEST(Cbc3dAdapters, CommandTakesItsPresetFromTheName) {
   const Argv plain = command_of("cbc3d");
   const std::string program = CBC3D_BIN_DIR "/cbc3d";
   EXPECT_TRUE(has_sequence(plain, {program, "mesh", "in.nii", "--out", "out.vtu", "--report", "report.json",
-                                   "--threads", "3", "--quiet"}));
+                                   "--threads", "3", "--quiet", "--long-work"}));
   EXPECT_EQ(std::count(plain.begin(), plain.end(), "--preset"), 0);
   EXPECT_TRUE(has_sequence(command_of("cbc3d-paper"), {"--preset", "paper"}));
   EXPECT_TRUE(has_sequence(command_of("cbc3d-mixed"), {"--preset", "paper", "--mixed"}));

@@ -450,6 +450,28 @@ TEST_F(FaultKinds, FewKilobytesTakeSecondsAlone) {
   }
 }
 
+/// Wires one voxel wide along the three axes, every six voxels.
+LabelImage wire_grid(int size) {
+  const auto on_plane = [](double x) { return static_cast<int>(x) % 6 == 0 ? 1 : 0; };
+  return testing::make_image({size, size, size}, {1, 1, 1}, 1, [&](const Vec3& p) {
+    return on_plane(p.x) + on_plane(p.y) + on_plane(p.z) >= 2 ? 1 : 0;
+  });
+}
+
+// A kilobyte that would take minutes asks for consent; a larger file, or less work, does not.
+TEST_F(FaultKinds, SmallFilesThatAskForMinutesAreRefused) {
+  write_label_image(wire_grid(96), at("grid.nii.gz"));
+  ASSERT_LT(std::filesystem::file_size(at("grid.nii.gz")), 16384U);
+  const auto refused = run_command("mesh " + at("grid.nii.gz") + " --out " + at("o.vtu"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.text.find("take minutes of CPU"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("--long-work takes it"), std::string::npos) << refused.text;
+  EXPECT_FALSE(std::filesystem::exists(at("o.vtu")));
+  const auto paper =
+      run_command("mesh " + at("grid.nii.gz") + " --quiet --preset paper --out " + at("o.vtu"));
+  EXPECT_EQ(paper.exit_code, 0) << paper.text;
+}
+
 // A limit on the size of files stands for the disk: writing fails in the middle.
 TEST_F(FaultKinds, AFullDiskLeavesNothingUnderTheName) {
   LabelImage image = testing::noise_image(40, 0.5, 3);

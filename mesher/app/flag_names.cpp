@@ -19,7 +19,8 @@ const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifol
                                            {"edge_gradient and contrast", "--edge-gradient and --contrast"},
                                            {"accept_shear", "--accept-shear"},
                                            {"round_values", "--round"},
-                                           {"many_labels", "--many-labels"}};
+                                           {"many_labels", "--many-labels"},
+                                           {"long_work", "--long-work"}};
 
 /// The fields of the options: their names with underscores, with a unit or without. Names of one word are
 /// left alone, for they are ordinary words too.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <set>
 #include <type_traits>
 
 #include "mesher/core/error.hpp"
@@ -244,6 +245,25 @@ std::string format_of_image(const fs::path& path) {
   } catch (const formats::FormatError& error) {
     fail(path, error.what());
   }
+}
+
+std::uintmax_t file_bytes_of_image(const fs::path& path) {
+  require_file(path);
+  std::set<fs::path> files{path};
+  try {
+    if (!is_dicom_file(path)) {
+      for (const formats::DataFile& file : formats::read_image_header(path).files) files.insert(file.path);
+    }
+  } catch (const formats::FormatError& error) {
+    fail(path, error.what());
+  }
+  std::uintmax_t bytes = 0;
+  std::error_code error;
+  for (const fs::path& file : files) {
+    const std::uintmax_t size = fs::file_size(file, error);
+    bytes += error ? 0 : size;
+  }
+  return bytes;
 }
 
 }  // namespace cbc3d

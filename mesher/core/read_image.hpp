@@ -1,6 +1,7 @@
 // Reading images from files: NIfTI-1 and -2, Analyze, NRRD, MetaImage, INRIMAGE, GIPL, MGH, MIF.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,5 +22,9 @@ GreyImage read_grey_image(const std::filesystem::path& path);
 
 /// The name of a file's format, as its users call it. Throws InputError.
 std::string format_of_image(const std::filesystem::path& path);
+
+/// Bytes on the disk of all files that an image is made of: its header's and those of its voxels. Throws
+/// InputError.
+std::uintmax_t file_bytes_of_image(const std::filesystem::path& path);
 
 }  // namespace cbc3d

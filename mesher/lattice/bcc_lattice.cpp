@@ -385,4 +385,9 @@ double default_lattice_spacing_mm(const ImageFrame& frame) {
   return 10 * std::cbrt(frame.spacing_mm.x * frame.spacing_mm.y * frame.spacing_mm.z);
 }
 
+double default_finest_spacing_mm(const ImageFrame& frame) {
+  const Vec3& s = frame.spacing_mm;
+  return std::max(s.min_coeff(), 0.5 * std::cbrt(s.x * s.y * s.z));
+}
+
 }  // namespace cbc3d

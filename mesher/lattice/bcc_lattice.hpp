@@ -24,4 +24,9 @@ Lattice build_bcc_lattice(const LabelImage& image, const BccLatticeOptions& opti
 /// stent).
 double default_lattice_spacing_mm(const ImageFrame& frame);
 
+/// The finest that a fidelity alone makes the lattice where nothing is given: the smallest voxel spacing; of
+/// needle or plate voxels no less than half the geometric mean, for a lattice of equal-sided elements as fine
+/// as a voxel's thinnest side would have no end.
+double default_finest_spacing_mm(const ImageFrame& frame);
+
 }  // namespace cbc3d

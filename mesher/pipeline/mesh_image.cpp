@@ -60,13 +60,6 @@ MaterialMesh as_material_mesh(const Lattice& lattice) {
   return {local_points(lattice), tets.nodes, std::vector<MaterialId>(tets.size(), 1), {}, {}};
 }
 
-/// The smallest voxel spacing; of needle or plate voxels no less than half the geometric mean, for a lattice
-/// of equal-sided elements as fine as a voxel's thinnest side would have no end.
-double default_finest_spacing_mm(const ImageFrame& frame) {
-  const Vec3& s = frame.spacing_mm;
-  return std::max(s.min_coeff(), 0.5 * std::cbrt(s.x * s.y * s.z));
-}
-
 RefineOptions refine_options(const LabelImage& image, const MeshImageOptions& options) {
   RefineOptions refine = options.refine;
   refine.topology_checks = options.topology.enabled;

@@ -125,7 +125,7 @@ Wall wall_on_ray(const Smoothed& smoothed, const Grey::IndexType& seed, const st
 
 /// The median of the walls that rays in 26 directions from every seed meet.
 Levels measure(const Smoothed& smoothed, const std::vector<Grey::IndexType>& seeds, double sigma_voxels) {
-  std::vector<double> walls, behind, inside, everywhere;
+  std::vector<double> walls, behind, inside;
   for (const auto& seed : seeds) {
     inside.push_back(smoothed.level->GetPixel(seed));
     for (int code = 0; code < 27; ++code) {
@@ -137,10 +137,9 @@ Levels measure(const Smoothed& smoothed, const std::vector<Grey::IndexType>& see
       }
     }
   }
-  itk::ImageRegionConstIterator<Grey> voxel(smoothed.gradient, smoothed.gradient->GetLargestPossibleRegion());
-  for (; !voxel.IsAtEnd(); ++voxel) {
-    everywhere.push_back(voxel.Get());
-  }
+  const float* gradient = smoothed.gradient->GetBufferPointer();
+  std::vector<double> everywhere(
+      gradient, gradient + smoothed.gradient->GetLargestPossibleRegion().GetNumberOfPixels());
   return {quantile(walls, 0.5), quantile(everywhere, 0.5), quantile(inside, 0.5), quantile(behind, 0.5)};
 }
 

@@ -22,6 +22,7 @@ inline Outcome run_command(const std::string& arguments, const std::filesystem::
   const std::string place = folder.empty() ? "" : "cd '" + folder.string() + "' && ";
   const std::string command = place + CBC3D_COMMAND + " " + arguments + " 2>&1";
   std::FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return {.exit_code = 127, .text = "the shell could not be started"};
   std::string text;
   std::array<char, 4096> buffer;
   while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {

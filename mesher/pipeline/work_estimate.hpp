@@ -1,0 +1,39 @@
+// What meshing an image will cost, foreseen from the kinds of its boundaries before any work begins.
+//
+// Notation: open axis  an axis along which both face neighbours of a voxel have another label than it has
+//           sheet      a labelled voxel with one open axis; wire: with two; point: with all three
+//           junction   a 2x2x2 cell with voxels of three labels, background among them
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "mesher/core/label_image.hpp"
+
+namespace cbc3d {
+
+struct BoundaryKinds {
+  std::size_t faces = 0;  ///< between voxels of different labels, background among them
+  std::size_t sheets = 0, wires = 0, points = 0;
+  std::size_t junctions = 0;
+  std::size_t edge_contacts = 0;  ///< as in voxel_contacts.hpp
+};
+BoundaryKinds boundary_kinds_of(const LabelImage& image);
+
+/// Seconds of CPU that the default preset takes: a sum over the kinds, whose weights were fitted to the
+/// logarithms of what thirty images took: segmentations, phantoms, grids of wires and walls, blocks,
+/// checkerboards. They took from a third to three times of it. Thin parts, junctions and contacts cost the
+/// most, since the lattice is split below the voxel there.
+double estimated_cpu_seconds(const BoundaryKinds& kinds, const ImageFrame& frame);
+
+/// A file smaller than this that asks for more work than that is more often a mistake, or made to keep a
+/// machine busy, than a wish. Of segmentations of organs, vessels and bones none is as small and takes as
+/// long.
+inline constexpr std::uintmax_t kSmallFileBytes = 16384;
+inline constexpr double kSmallFileCpuSeconds = 30;
+
+/// Why the file asks for more work than its size lets one expect; empty where it does not.
+std::string why_long_work(const LabelImage& image, std::uintmax_t file_bytes);
+
+}  // namespace cbc3d
