@@ -18,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr std::size_t kMostInstances = 1000;
+
 // A JSON object with the words to complain about it.
 struct Section {
   const json& object;
@@ -194,11 +196,10 @@ void require_cases_before(const std::vector<Case>& cases, const std::vector<fs::
   }
 }
 
-Case read_case(const fs::path& file) {
-  const json parsed = parse_file(file);
-  const Section top{parsed, file, ""};
+Case read_case(const Section& top) {
+  const json& parsed = top.object;
   top.require_known_keys({"name", "title", "suites", "image", "derive", "parameters", "parameter_sets",
-                          "deformation_pattern", "paper"});
+                          "deformation_pattern", "paper", "instances"});
   Case result;
   result.name = top.text("name");
   if (!is_plain_name(result.name)) {
@@ -233,6 +234,30 @@ Case read_case(const fs::path& file) {
   return result;
 }
 
+/// The cases of a manifest: itself, or as many instances of its phantom, each with the seed after the last
+/// one's.
+std::vector<Case> read_cases(const fs::path& file) {
+  const json parsed = parse_file(file);
+  const Section top{parsed, file, ""};
+  const Case one = read_case(top);
+  if (!parsed.contains("instances")) return {one};
+  const json& instances = top.at("instances");
+  const bool phantoms = one.phantom && one.phantom->sha256.empty();
+  if (!phantoms || !instances.is_number_unsigned() || instances < 1 || instances > kMostInstances) {
+    top.fail("instances", "is " + instances.dump() +
+                              ", not a number of phantoms (without sha256) from 1 to " +
+                              std::to_string(kMostInstances));
+  }
+  std::vector<Case> cases(instances.get<std::size_t>(), one);
+  for (std::size_t n = 0; n < cases.size(); ++n) {
+    const std::string number = std::to_string(n);
+    cases[n].name += "-" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
+    cases[n].title += " (" + number + ")";
+    cases[n].phantom->seed += n;
+  }
+  return cases;
+}
+
 }  // namespace
 
 std::vector<Case> load_cases(const fs::path& manifest_dir) {
@@ -251,14 +276,18 @@ std::vector<Case> load_cases(const fs::path& manifest_dir) {
   std::sort(files.begin(), files.end());
   std::vector<Case> cases;
   std::set<std::string> names;
+  std::vector<fs::path> file_of_case;
   for (const fs::path& file : files) {
-    cases.push_back(read_case(file));
-    if (!names.insert(cases.back().name).second) {
-      throw InputError("'" + file.string() + "': \"name\" is \"" + cases.back().name +
-                       "\", which another manifest has too; choose another");
+    for (Case& read : read_cases(file)) {
+      if (!names.insert(read.name).second) {
+        throw InputError("'" + file.string() + "': \"name\" is \"" + read.name +
+                         "\", which another manifest has too; choose another");
+      }
+      cases.push_back(std::move(read));
+      file_of_case.push_back(file);
     }
   }
-  require_cases_before(cases, files, names);
+  require_cases_before(cases, file_of_case, names);
   return cases;
 }
 

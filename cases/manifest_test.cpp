@@ -48,6 +48,35 @@ std::string error_of(const json& manifest) {
   return "";
 }
 
+TEST(Manifest, InstancesOfAPhantomAreCasesWithSeedsOfTheirOwn) {
+  const TemporaryFolder folder("manifest");
+  json many = phantom_manifest();
+  many["image"]["phantom"].erase("sha256");
+  many["instances"] = 12;
+  folder.write("many.json", many.dump());
+  const auto cases = load_cases(folder.path());
+  ASSERT_EQ(cases.size(), 12U);
+  EXPECT_EQ(cases[0].name, "one-000");
+  EXPECT_EQ(cases[11].name, "one-011");
+  EXPECT_EQ(cases[0].phantom->seed, 3U);
+  EXPECT_EQ(cases[11].phantom->seed, 14U);
+}
+
+TEST(Manifest, InstancesAreANumberOfPhantoms) {
+  json manifest = phantom_manifest();
+  manifest["instances"] = 2;  // but all would have one sha256
+  EXPECT_NE(error_of(manifest).find("instances"), std::string::npos);
+  manifest["image"]["phantom"].erase("sha256");
+  EXPECT_EQ(error_of(manifest), "");
+  for (const json& bad : {json(0), json(-1), json(1001), json("3"), json(2.5)}) {
+    manifest["instances"] = bad;
+    EXPECT_NE(error_of(manifest).find("instances"), std::string::npos) << bad;
+  }
+  json file = good_manifest();
+  file["instances"] = 2;
+  EXPECT_NE(error_of(file).find("instances"), std::string::npos);
+}
+
 TEST(Manifest, EveryKeyIsRead) {
   const TemporaryFolder folder("manifest");
   json second = phantom_manifest();

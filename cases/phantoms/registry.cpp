@@ -11,7 +11,7 @@
 namespace cbc3d::cases {
 namespace {
 
-constexpr std::array<PhantomKind, 9> kKinds{{
+constexpr std::array<PhantomKind, 10> kKinds{{
     {"organs",
      "body (1) with an organ (2), a ring-shaped vessel (3) around and into it, and a lesion (4) in it",
      {96, 96, 64},
@@ -46,6 +46,12 @@ constexpr std::array<PhantomKind, 9> kKinds{{
      {1, 1, 1},
      1,
      noisy_vessels_phantom},
+    {"assorted",
+     "another image for each seed: of ten kinds, up to the given size, with other voxels, frames and labels",
+     {44, 44, 44},
+     {1, 1, 1},
+     1,
+     assorted_phantom},
     {"aneurysm",
      "carotid artery with its branches and a saccular aneurysm (1)",
      {512, 512, 508},

@@ -10,6 +10,7 @@
 #include "reports/tables/scaling_table.hpp"
 #include "reports/tables/smoothness_table.hpp"
 #include "reports/tables/speed_table.hpp"
+#include "reports/tables/success_table.hpp"
 #include "reports/tables/sweep_tables.hpp"
 #include "reports/tables/target_table.hpp"
 
@@ -17,6 +18,7 @@ namespace cbc3d::reports {
 
 const std::vector<TableBuilder>& table_list() {
   static const std::vector<TableBuilder> list{
+      success_table,
       front_table,
       front_loss_table,
       catalog_table("element_count", "Element count"),
