@@ -3,6 +3,9 @@
 //
 // The seed draws the kind (in turn, so that a run of seeds has as many of each), how many voxels, how far
 // they are from cubes, how the axes lie, which values the labels have, and the shape.
+//
+// Contacts at edges and corners are resolved (well_composed.hpp), so that every label has one topology,
+// whichever way it is seen, and a mesh's can be compared with it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +15,7 @@
 #include "cases/phantoms/noise.hpp"
 #include "cases/phantoms/random.hpp"
 #include "cases/phantoms/shapes.hpp"
+#include "mesher/preprocess/well_composed.hpp"
 
 namespace cbc3d::cases {
 namespace {
@@ -246,6 +250,7 @@ LabelImage assorted_phantom(const Index3& size, const Vec3& spacing_mm, std::uin
   const Vec3 origin = random.in_box(200);
   Draw draw{drawn, spacing, random, seed};
   LabelImage image = kShapes.at(seed % kShapes.size())(draw);
+  make_well_composed(image);
   draw_labels(image, draw.random);
   image.frame.direction = direction;
   image.frame.origin_mm = origin;

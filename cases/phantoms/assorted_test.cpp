@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "cases/phantoms/generators.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/preprocess/voxel_contacts.hpp"
 
 namespace cbc3d::cases {
 namespace {
@@ -52,6 +54,15 @@ TEST(AssortedPhantom, FramesVoxelsAndLabelsAreOfAllSorts) {
   EXPECT_GT(uneven, 15);
   EXPECT_GT(with_gaps, 10);
   EXPECT_GT(label_counts.size(), 5U);
+}
+
+TEST(AssortedPhantom, NearlyNoContactIsLeft) {
+  std::size_t contacts = 0;
+  for (std::uint64_t seed = 0; seed < kImages; ++seed) {
+    const ContactReport report = count_voxel_contacts(assorted_phantom(kSize, kSpacing, seed));
+    contacts += report.edge_contacts + report.vertex_contacts;
+  }
+  EXPECT_LT(contacts, kImages);
 }
 
 TEST(AssortedPhantom, ASeedGivesTheSameVoxelsAtAnyThreadCount) {

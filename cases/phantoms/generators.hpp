@@ -14,8 +14,8 @@ LabelImage shells_phantom(const Index3& size, const Vec3& spacing_mm, std::uint6
 LabelImage rings_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 LabelImage vessels_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 LabelImage noisy_vessels_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
-/// `size` is the largest and `spacing_mm` the finest that a seed draws; the image has an origin and
-/// directions of its own.
+/// Well-composed. `size` is the largest and `spacing_mm` the finest that a seed draws; the image has an
+/// origin and directions of its own.
 LabelImage assorted_phantom(const Index3& size, const Vec3& spacing_mm, std::uint64_t seed);
 
 /// The analytic shapes of organs_phantom; a voxel takes the label of the last that holds its centre.
