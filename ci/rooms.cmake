@@ -48,6 +48,21 @@ function(cbc3d_tests folder name)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST)
 endfunction()
 
+# cbc3d_fuzz(FOLDER NAME SOURCE [ROOMS ...]) makes a libFuzzer program, one of the target `fuzzers`, with -DCBC3D_FUZZ=ON
+# (ci/fuzz); its arrows are those of the room's tests.
+function(cbc3d_fuzz folder name)
+  if(NOT CBC3D_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "" "" "ROOMS")
+  cbc3d_program(${folder}:tests ${name} ${ARG_UNPARSED_ARGUMENTS} ROOMS ${ARG_ROOMS})
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  if(NOT TARGET fuzzers)
+    add_custom_target(fuzzers)
+  endif()
+  add_dependencies(fuzzers ${name})
+endfunction()
+
 # cbc3d_benchmarks(FOLDER SOURCES... [ROOMS ...]) adds microbenchmarks to the one program mesher_bench; their arrows are
 # those of the room's tests.
 function(cbc3d_benchmarks folder)
