@@ -9,7 +9,7 @@
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/option_table.hpp"
 #include "mesher/pipeline/presets.hpp"
 #include "mesher/pipeline/testing_option_samples.hpp"

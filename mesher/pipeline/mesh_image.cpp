@@ -7,11 +7,11 @@
 #include <map>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/domain/tolerances.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/part_raster.hpp"
 #include "mesher/lattice/red_green.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 
 namespace cbc3d {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/gmsh_io.hpp"
 #include "mesher/core/testing_mesh.hpp"
+#include "mesher/mesh_formats/gmsh_io.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d {

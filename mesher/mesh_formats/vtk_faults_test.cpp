@@ -1,4 +1,4 @@
-#include "mesher/core/vtk_faults.hpp"
+#include "mesher/mesh_formats/vtk_faults.hpp"
 
 #include <gtest/gtest.h>
 #include <vtkNew.h>

@@ -1,4 +1,4 @@
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 
 #include <unistd.h>
 #include <vtkCellArray.h>
@@ -19,11 +19,11 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/gmsh_io.hpp"
-#include "mesher/core/grid_arrays.hpp"
-#include "mesher/core/parallel_deflate.hpp"
-#include "mesher/core/vtk_faults.hpp"
-#include "mesher/core/vtk_reading.hpp"
+#include "mesher/mesh_formats/gmsh_io.hpp"
+#include "mesher/mesh_formats/grid_arrays.hpp"
+#include "mesher/mesh_formats/parallel_deflate.hpp"
+#include "mesher/mesh_formats/vtk_faults.hpp"
+#include "mesher/mesh_formats/vtk_reading.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;

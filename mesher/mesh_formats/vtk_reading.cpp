@@ -1,4 +1,4 @@
-#include "mesher/core/vtk_reading.hpp"
+#include "mesher/mesh_formats/vtk_reading.hpp"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -17,8 +17,8 @@
 
 #include "mesher/core/child_process.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/grid_arrays.hpp"
-#include "mesher/core/vtk_faults.hpp"
+#include "mesher/mesh_formats/grid_arrays.hpp"
+#include "mesher/mesh_formats/vtk_faults.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;

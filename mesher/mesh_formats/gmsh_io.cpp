@@ -1,4 +1,4 @@
-#include "mesher/core/gmsh_io.hpp"
+#include "mesher/mesh_formats/gmsh_io.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/testing_files.hpp"
 #include "mesher/core/testing_mesh.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 
 namespace cbc3d {
 namespace {

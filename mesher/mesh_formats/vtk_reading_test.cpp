@@ -1,13 +1,13 @@
 // Damaged VTK files are refused in one line, whatever VTK's readers do with them.
-#include "mesher/core/vtk_reading.hpp"
+#include "mesher/mesh_formats/vtk_reading.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/testing_mesh.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d {

@@ -1,4 +1,4 @@
-#include "mesher/core/grid_arrays.hpp"
+#include "mesher/mesh_formats/grid_arrays.hpp"
 
 #include <gtest/gtest.h>
 

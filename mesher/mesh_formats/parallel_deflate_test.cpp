@@ -1,5 +1,5 @@
 // Blocks that were compressed ahead are what VTK reads, whatever else it asks for.
-#include "mesher/core/parallel_deflate.hpp"
+#include "mesher/mesh_formats/parallel_deflate.hpp"
 
 #include <gtest/gtest.h>
 #include <vtkNew.h>

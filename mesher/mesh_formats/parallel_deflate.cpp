@@ -1,4 +1,4 @@
-#include "mesher/core/parallel_deflate.hpp"
+#include "mesher/mesh_formats/parallel_deflate.hpp"
 
 #include <libdeflate.h>
 
