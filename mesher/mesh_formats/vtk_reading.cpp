@@ -72,15 +72,27 @@ GridArrays arrays_of(vtkUnstructuredGrid& grid, vtkDataArray& labels) {
   return arrays;
 }
 
-void send_grid(vtkUnstructuredGrid* grid, const ChildOutput& out) {
+std::string cell_arrays_of(vtkUnstructuredGrid& grid) {
+  std::string names;
+  for (int a = 0; a < grid.GetCellData()->GetNumberOfArrays(); ++a) {
+    const char* const name = grid.GetCellData()->GetArrayName(a);
+    names += std::string(names.empty() ? "'" : ", '") + (name == nullptr ? "" : name) + "'";
+  }
+  return names;
+}
+
+void send_grid(vtkUnstructuredGrid* grid, const std::string& label_array, const std::string& others,
+               const ChildOutput& out) {
   const auto say = [&out](Finding finding) { out.write(std::as_bytes(std::span(&finding, 1))); };
   if (grid == nullptr || grid->GetNumberOfCells() == 0 || grid->GetPoints() == nullptr ||
       grid->GetCellTypesArray() == nullptr) {
     return say(Finding::no_grid);
   }
-  vtkDataArray* const labels = grid->GetCellData()->GetArray(kLabelArray);
+  vtkDataArray* const labels = grid->GetCellData()->GetArray(label_array.c_str());
   if (labels == nullptr) {
-    return say(Finding::no_label_array);
+    say(Finding::no_label_array);
+    const std::string found = others.empty() ? cell_arrays_of(*grid) : others;
+    return send(out, std::vector<char>(found.begin(), found.end()));
   }
   if (labels->GetNumberOfTuples() != grid->GetNumberOfCells() ||
       grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells()) {
@@ -96,24 +108,33 @@ void send_grid(vtkUnstructuredGrid* grid, const ChildOutput& out) {
 }
 
 /// Arrays that are not asked for are not read, so that they cannot be damaged.
-void select_label_array(vtkXMLUnstructuredGridReader& reader) {
+/// Returns the names of all cell arrays where the reader knows them beforehand.
+std::string select_label_array(vtkXMLUnstructuredGridReader& reader, const std::string& label_array) {
   reader.UpdateInformation();
   reader.GetPointDataArraySelection()->DisableAllArrays();
-  reader.GetCellDataArraySelection()->DisableAllArrays();
-  reader.GetCellDataArraySelection()->EnableArray(kLabelArray);
+  vtkDataArraySelection& arrays = *reader.GetCellDataArraySelection();
+  std::string names;
+  for (int a = 0; a < arrays.GetNumberOfArrays(); ++a) {
+    names += std::string(names.empty() ? "'" : ", '") + arrays.GetArrayName(a) + "'";
+  }
+  arrays.DisableAllArrays();
+  arrays.EnableArray(label_array.c_str());
+  return names;
 }
-void select_label_array(vtkUnstructuredGridReader& /*reader*/) {}
+std::string select_label_array(vtkUnstructuredGridReader& /*reader*/, const std::string& /*label_array*/) {
+  return {};
+}
 
 template <typename Reader>
-void read_and_send(const fs::path& path, const ChildOutput& out) {
+void read_and_send(const fs::path& path, const std::string& label_array, const ChildOutput& out) {
   const VtkSilence silence;
   vtkNew<Reader> reader;
   vtkNew<VtkFaults> faults;
   reader->AddObserver(vtkCommand::ErrorEvent, faults);
   reader->SetFileName(path.c_str());
-  select_label_array(*reader);
+  const std::string arrays = select_label_array(*reader, label_array);
   reader->Update();
-  send_grid(faults->text.empty() ? reader->GetOutput() : nullptr, out);
+  send_grid(faults->text.empty() ? reader->GetOutput() : nullptr, label_array, arrays, out);
 }
 
 /// Memory for the most that deflate can pack into the file, and time for a slow disk.
@@ -129,7 +150,16 @@ ChildLimits limits_of(const fs::path& path) {
   throw InputError("cannot read '" + path.string() + "': " + what);
 }
 
-GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs::path& path) {
+[[noreturn]] void fail_without_labels(const fs::path& path, const std::string& label_array,
+                                      const std::string& others) {
+  fail(path, "it has no cell array '" + label_array + "'" +
+                 (others.empty()
+                      ? "; add one integer label for each cell"
+                      : ", but " + others.substr(0, 200) + "; name the one with the labels by label_array"));
+}
+
+GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs::path& path,
+                        const std::string& label_array) {
   Finding finding = Finding::no_grid;
   GridArrays grid;
   const bool told = child.read(std::as_writable_bytes(std::span(&finding, 1)));
@@ -137,7 +167,9 @@ GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs:
     fail(path, "not a VTK unstructured grid with cells, or a damaged one");
   }
   if (told && finding == Finding::no_label_array) {
-    fail(path, "it has no cell array 'label'; add one integer label a cell");
+    std::vector<char> others;
+    receive(child, most_bytes, others);
+    fail_without_labels(path, label_array, {others.begin(), others.end()});
   }
   if (told && finding == Finding::arrays_of_no_length) {
     fail(path,
@@ -153,13 +185,14 @@ GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs:
 
 }  // namespace
 
-Mesh read_vtk(const fs::path& path, VtkFormat format) {
+Mesh read_vtk(const fs::path& path, VtkFormat format, const std::string& label_array) {
+  const std::string array = label_array.empty() ? kLabelArray : label_array;
   const ChildLimits limits = limits_of(path);
   ChildProcess child(limits, [&](const ChildOutput& out) {
-    format == VtkFormat::xml ? read_and_send<vtkXMLUnstructuredGridReader>(path, out)
-                             : read_and_send<vtkUnstructuredGridReader>(path, out);
+    format == VtkFormat::xml ? read_and_send<vtkXMLUnstructuredGridReader>(path, array, out)
+                             : read_and_send<vtkUnstructuredGridReader>(path, array, out);
   });
-  const GridArrays grid = receive_grid(child, limits.memory_bytes, path);
+  const GridArrays grid = receive_grid(child, limits.memory_bytes, path, array);
   return mesh_of_grid(grid, "cannot read '" + path.string() + "'");
 }
 

@@ -58,6 +58,19 @@ TEST_F(VtkReading, GoodFilesAreRead) {
   }
 }
 
+TEST_F(VtkReading, TheLabelArrayMayHaveAnyName) {
+  const std::string file = vtu(cells("0 1 2 3", "4", "10"), "9");
+  folder_.write("m", file);
+  EXPECT_EQ(read_vtk(folder_.file("m"), VtkFormat::xml, "label").tets.labels[0], 9);
+  try {
+    read_vtk(folder_.file("m"), VtkFormat::xml, "part");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no cell array 'part', but 'label'"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(VtkReading, WhatDoesNotGoTogetherIsRefused) {
   const std::string good = cells("0 1 2 3", "4", "10");
   for (const std::string& bad :
