@@ -72,7 +72,7 @@ TEST_F(MeshCommand, RefusesBadInputWithOneLine) {
   expect_refusal("mesh " + at("absent.nii") + " --out " + at("m.vtu"), "does not exist");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("none/m.vtu"), "create it first");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out /proc/m.vtu", "choose another place");
-  expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.stl"), "use .vtu, .vtk or .msh");
+  expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.stl"), "use .vtu, .vtk, .msh");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.vtu") + " --fidelity 2", "--fidelity");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.vtu") + " --material-fidelity 9=0.5",
                  "no label 9");

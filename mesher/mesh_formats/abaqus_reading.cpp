@@ -103,6 +103,11 @@ class AbaqusReader {
   }
 
  private:
+  /// Numbers of elements in a set of *ELSET.
+  struct Range {
+    std::size_t elset;
+    std::int64_t first, last, step;
+  };
   enum class Data { other, nodes, elements, element_set };
 
   void read_line() {
@@ -144,7 +149,8 @@ class AbaqusReader {
     } else if (keyword.name == "ELSET") {
       data_ = Data::element_set;
       generate_ = keyword.parameters.contains("GENERATE");
-      set_name_ = keyword.get("ELSET");
+      elset_names_.push_back(keyword.get("ELSET"));
+      set_of_elset_.push_back(kNoSet);
     } else if (keyword.name == "INCLUDE") {
       file_.fail("it includes another file; give one file with the whole mesh");
     }
@@ -207,7 +213,7 @@ class AbaqusReader {
       if (fields.size() < 2)
         file_.fail("a generated element set has no first and last number; export it again");
       const std::int64_t step = fields.size() > 2 ? file_.integer_of(fields[2], "element set") : 1;
-      ranges_.push_back({set_name_, file_.integer_of(fields[0], "element set"),
+      ranges_.push_back({elset_names_.size() - 1, file_.integer_of(fields[0], "element set"),
                          file_.integer_of(fields[1], "element set"), step});
       if (step < 1) file_.fail("a generated element set has a step below 1; export it again");
       return;
@@ -216,37 +222,42 @@ class AbaqusReader {
       if (std::isdigit(static_cast<unsigned char>(field.empty() ? 'x' : field[0])) == 0)
         continue;  // another set's name
       const std::int64_t number = file_.integer_of(field, "element set");
-      ranges_.push_back({set_name_, number, number, 1});
+      ranges_.push_back({elset_names_.size() - 1, number, number, 1});
     }
   }
 
   /// Sets of *ELSET count where *ELEMENT has none.
   void take_sets_of_elsets() {
-    if (elements_.empty() || std::any_of(elements_.begin(), elements_.end(),
-                                         [](const Element& element) { return element.set != kNoSet; })) {
-      return;
-    }
+    const auto has_set = [](const Element& element) { return element.set != kNoSet; };
+    if (std::any_of(elements_.begin(), elements_.end(), has_set)) return;
     std::unordered_map<std::int64_t, Element*> by_number;
     for (Element& element : elements_) by_number[element.number] = &element;
     for (const Range& range : ranges_) {
-      const auto steps =
-          static_cast<std::uint64_t>(range.last - range.first) / static_cast<std::uint64_t>(range.step);
-      if (range.last < range.first || steps > elements_.size() * 16 + 1000000) {
-        file_.fail("the element set " + range.set.substr(0, 40) +
-                   " has numbers beyond the elements; export it again");
-      }
-      for (std::int64_t number = range.first; number <= range.last; number += range.step) {
-        if (const auto found = by_number.find(number); found != by_number.end())
-          put(*found->second, range.set);
+      const std::uint64_t steps = steps_of(range);
+      for (std::uint64_t n = 0; n <= steps; ++n) {
+        const auto found = by_number.find(range.first + static_cast<std::int64_t>(n) * range.step);
+        if (found != by_number.end()) put(*found->second, range.elset);
       }
     }
     require_sets_of_all();
   }
-  void put(Element& element, const std::string& name) {
-    const std::size_t set = number_of_set(name);
+  [[nodiscard]] std::uint64_t steps_of(const Range& range) const {
+    constexpr std::uint64_t kMost = 100000000;
+    const std::uint64_t length =
+        static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(range.first);
+    const std::uint64_t steps = length / static_cast<std::uint64_t>(range.step);
+    if (range.last < range.first || steps > kMost) {
+      file_.fail("the element set " + elset_names_[range.elset].substr(0, 40) +
+                 " has numbers beyond the elements; export it again");
+    }
+    return steps;
+  }
+  void put(Element& element, std::size_t elset) {
+    if (set_of_elset_[elset] == kNoSet) set_of_elset_[elset] = number_of_set(elset_names_[elset]);
+    const std::size_t set = set_of_elset_[elset];
     if (element.set != kNoSet && element.set != set) {
       file_.fail("the element " + std::to_string(element.number) + " is in the sets " +
-                 set_names_[element.set].substr(0, 40) + " and " + name.substr(0, 40) +
+                 set_names_[element.set].substr(0, 40) + " and " + set_names_[set].substr(0, 40) +
                  ", so that its label is unknown; name the labels' sets by ELSET= of *ELEMENT");
     }
     element.set = set;
@@ -279,21 +290,16 @@ class AbaqusReader {
     return distinct.size() == set_names_.size() ? ends : places;
   }
 
-  struct Range {
-    std::string set;
-    std::int64_t first, last, step;
-  };
-
   FileText file_;
   MeshBuilder builder_;
   Data data_ = Data::other;
   CellKind kind_ = CellKind::tet;
   std::size_t set_ = kNoSet;
-  std::string set_name_;
   bool generate_ = false;
   std::vector<std::int64_t> pending_;  // numbers of an element that goes on
   std::vector<Element> elements_;
-  std::vector<std::string> set_names_;
+  std::vector<std::string> set_names_, elset_names_;
+  std::vector<std::size_t> set_of_elset_;  // of every *ELSET, once an element is in it
   std::map<std::string, Label> stated_;
   std::vector<Range> ranges_;
 };
