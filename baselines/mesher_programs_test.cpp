@@ -15,7 +15,7 @@
 #include "baselines/registry.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 
 namespace cbc3d::baselines {
 namespace {

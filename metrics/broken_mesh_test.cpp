@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "metrics/testing.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "metrics/image_boundary.hpp"
 #include "metrics/point_set_hausdorff.hpp"
 #include "metrics/surface.hpp"

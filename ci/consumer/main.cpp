@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/mesh_array.hpp"
 #include "metrics/evaluate_mesh.hpp"
 

@@ -10,6 +10,7 @@
 #include "mesher/app/info_command.hpp"
 #include "mesher/app/mesh_command.hpp"
 #include "mesher/app/segment_command.hpp"
+#include "mesher/app/surface_command.hpp"
 #include "mesher/app/tile_command.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/one_line.hpp"
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
     cbc3d::add_improve_command(app, exit_code);
     cbc3d::add_info_command(app, exit_code);
     cbc3d::add_segment_command(app, exit_code);
+    cbc3d::add_surface_command(app, exit_code);
     cbc3d::add_tile_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mesher/app/image_input.hpp"
+#include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/option_json.hpp"
@@ -11,10 +12,10 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
@@ -24,6 +25,8 @@ struct DeformCommand {
   std::string mesh, image, out;
   std::string preset = preset_names().front();
   OptionSettings settings;
+  ReadMeshOptions reading;
+  MeshFileOptions writing;
   ImageInput input;
   CommonOptions common;
 };
@@ -55,7 +58,7 @@ void write_report(const DeformCommand& command, const MeshImageOptions& options,
 
 /// The mesh in the image's frame. Throws InputError where they do not lie together.
 MaterialMesh read_material_mesh(DeformCommand& command, const LabelImage& image) {
-  const Mesh mesh = read_mesh(command.mesh);
+  const Mesh mesh = read_mesh(command.mesh, command.reading);
   require_writable_labels(labels_of(mesh), command.out);
   try {
     MaterialMesh local = to_material_mesh(mesh, image);  // labels that the image lacks are named first
@@ -73,7 +76,7 @@ MaterialMesh read_material_mesh(DeformCommand& command, const LabelImage& image)
 }
 
 void run(DeformCommand& command) {
-  require_writable_mesh_path(command.out);
+  require_writable_mesh_path(command.out, command.writing);
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.mesh, 0);
   const LabelImage image = read_input_image(command.image, command.input);
@@ -90,7 +93,7 @@ void run(DeformCommand& command) {
   });
   progress.step("writing " + command.out, 0.95);
   const Mesh out = to_physical_mesh(mesh, image);
-  write_mesh(out, command.out);
+  write_mesh(out, command.out, command.writing);
   if (!command.common.report_file.empty()) {
     write_report(command, options, mix, deform, out);
   }
@@ -113,9 +116,9 @@ void add_deform_command(CLI::App& app, int& exit_code) {
   CLI::App* deform = app.add_subcommand("deform",
                                         "the deformation alone, on a given mesh with cell labels; with "
                                         "--mixed --iterations 0 the mixed elements alone");
-  deform->add_option("mesh", command->mesh, "mesh of tets, pyramids, hexes: .vtu, .vtk or .msh")->required();
+  deform->add_option("mesh", command->mesh, read_mesh_text("mesh of tets, pyramids, hexes"))->required();
   deform->add_option("image", command->image, "label image that the mesh was made from")->required();
-  deform->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
+  deform->add_option("--out", command->out, written_mesh_text())->required();
   deform
       ->add_option("--preset", command->preset,
                    "quality: our best; paper: the published method [" + command->preset + "]")
@@ -123,6 +126,8 @@ void add_deform_command(CLI::App& app, int& exit_code) {
   for (const OptionGroup group : {OptionGroup::mixed, OptionGroup::deformation}) {
     add_option_flags(*deform, group, deformation_columns(), command->settings);
   }
+  add_mesh_file_options(*deform, command->writing);
+  add_label_array_option(*deform, command->reading);
   add_image_options(*deform, command->input);
   add_report_option(*deform, command->common, "JSON file with options, counts and per-iteration figures");
   complete_command(*deform, command->common, exit_code, [command] { run(*command); });

@@ -9,9 +9,9 @@
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/formats/testing_dicom.hpp"
 #include "mesher/formats/testing_headers.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/test_images.hpp"
 
 namespace cbc3d {

@@ -20,7 +20,8 @@ const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifol
                                            {"accept_shear", "--accept-shear"},
                                            {"round_values", "--round"},
                                            {"many_labels", "--many-labels"},
-                                           {"long_work", "--long-work"}};
+                                           {"long_work", "--long-work"},
+                                           {"label_array", "--label-array"}};
 
 /// The fields of the options: their names with underscores, with a unit or without. Names of one word are
 /// left alone, for they are ordinary words too.

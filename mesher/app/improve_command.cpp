@@ -7,19 +7,20 @@
 #include <optional>
 
 #include "mesher/app/image_input.hpp"
+#include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/domain/image_domain.hpp"
 #include "mesher/domain/mesh_domain.hpp"
 #include "mesher/improve/improve_mesh.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/topology/labelled_tets.hpp"
 #include "mesher/topology/orient_tets.hpp"
 
@@ -33,6 +34,8 @@ struct ImproveCommand {
   std::string mesh, image, out;
   MeshImageOptions defaults{.improve = {.enabled = true, .repair_rounds = 12, .untangle_rounds = 6}};
   OptionSettings settings;
+  ReadMeshOptions reading;
+  MeshFileOptions writing;
   double max_deviation_mm = 0;
   bool decimate = false;
   ImageInput input;
@@ -69,7 +72,7 @@ void require_placement(const Mesh& mesh, Subject& subject) {
 
 Subject read(ImproveCommand& command) {
   Subject subject;
-  Mesh mesh = read_mesh(command.mesh);
+  Mesh mesh = read_mesh(command.mesh, command.reading);
   require_writable_labels(labels_of(mesh), command.out);
   if (!command.image.empty()) {
     subject.image = read_input_image(command.image, command.input);
@@ -191,7 +194,7 @@ nlohmann::json report_json(const ImproveCommand& command, const Subject& subject
 }
 
 void run(ImproveCommand& command) {
-  require_writable_mesh_path(command.out);
+  require_writable_mesh_path(command.out, command.writing);
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.mesh, 0);
   Subject subject = read(command);
@@ -206,7 +209,7 @@ void run(ImproveCommand& command) {
   warn(command, subject);
   progress.step("writing " + command.out, 0.95);
   const Mesh out = to_physical_mesh(subject.mesh, subject.image);
-  write_mesh(out, command.out);
+  write_mesh(out, command.out, command.writing);
   if (!command.common.report_file.empty()) {
     write_text_file(command.common.report_file, json_text(report_json(command, subject, seconds)) + "\n");
   }
@@ -227,10 +230,10 @@ void add_improve_command(CLI::App& app, int& exit_code) {
                                          "the improver, and when asked the decimator, alone, on any labelled "
                                          "tet mesh, towards an image's boundaries or "
                                          "its own");
-  improve->add_option("mesh", command->mesh, "mesh of labelled tets: .vtu, .vtk or .msh")->required();
+  improve->add_option("mesh", command->mesh, read_mesh_text("mesh of labelled tets"))->required();
   improve->add_option("image", command->image,
                       "label image that the mesh was made from; without it the mesh keeps its own surfaces");
-  improve->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
+  improve->add_option("--out", command->out, written_mesh_text())->required();
   add_option_flag(*improve, find_option("min-dihedral"), {{"", command->defaults}}, command->settings);
   improve
       ->add_option("--max-deviation", command->max_deviation_mm,
@@ -245,6 +248,8 @@ void add_improve_command(CLI::App& app, int& exit_code) {
       "--decimate,!--no-decimation", command->decimate,
       "fit the surfaces to the boundary and thin the mesh out as well; without it what is below the goal is "
       "repaired and all else is left as it is");
+  add_mesh_file_options(*improve, command->writing);
+  add_label_array_option(*improve, command->reading);
   add_image_options(*improve, command->input);
   add_report_option(*improve, command->common, "JSON file with counts, angles and volumes before and after");
   complete_command(*improve, command->common, exit_code, [command] { run(*command); });

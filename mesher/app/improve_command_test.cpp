@@ -11,7 +11,7 @@
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/test_images.hpp"
 #include "mesher/topology/cell_quality.hpp"
 #include "mesher/topology/labelled_tets.hpp"

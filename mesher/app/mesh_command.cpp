@@ -7,6 +7,7 @@
 
 #include "mesher/app/flag_names.hpp"
 #include "mesher/app/image_input.hpp"
+#include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_findings.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
@@ -16,9 +17,9 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/read_image.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
 #include "mesher/pipeline/work_estimate.hpp"
@@ -31,6 +32,8 @@ struct MeshCommand {
   std::string out;
   std::string preset = preset_names().front();
   OptionSettings settings;
+  MeshFileOptions writing;
+  int order = 1;
   std::string dump_stages;
   bool long_work = false;
   ImageInput input;
@@ -62,8 +65,18 @@ void require_expected_work(const MeshCommand& command, const LabelImage& image) 
   }
 }
 
+/// The mesh of the corners; `quadratic` gets the whole of order 2.
+Mesh mesh_in_order(LabelImage image, const RunDescription& run, const Progress& progress,
+                   MeshImageReport& report, QuadraticMesh& quadratic) {
+  if (run.order == 1) {
+    return mesh_image(std::move(image), run.options, progress, report);
+  }
+  quadratic = mesh_image_quadratic(std::move(image), run.options, progress, report);
+  return corner_mesh(quadratic);
+}
+
 void run(MeshCommand& command) {
-  require_writable_mesh_path(command.out);
+  require_writable_mesh_path(command.out, command.writing);
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.image, 0);
   const Stopwatch reading;
@@ -73,10 +86,12 @@ void run(MeshCommand& command) {
   RunDescription description{.preset = command.preset,
                              .threads = command.common.threads,
                              .options = options_of(command, image),
+                             .order = command.order,
                              .frame = image.frame,
                              .reading_seconds = reading.seconds()};
   MeshImageReport report;
-  const Mesh mesh = mesh_image(std::move(image), description.options, progress, report);
+  QuadraticMesh quadratic;
+  const Mesh mesh = mesh_in_order(std::move(image), description, progress, report, quadratic);
   report.warnings.insert(report.warnings.begin(), command.input.warnings.begin(),
                          command.input.warnings.end());
   for (std::string& finding : mesh_findings(mesh, report, description.frame)) {
@@ -91,7 +106,11 @@ void run(MeshCommand& command) {
   }
   progress.step("writing " + command.out, 0.97);
   const Stopwatch writing;
-  write_mesh(mesh, command.out);
+  if (command.order == 2) {
+    write_mesh(quadratic, command.out, command.writing);
+  } else {
+    write_mesh(mesh, command.out, command.writing);
+  }
   description.writing_seconds = writing.seconds();
   if (!command.common.report_file.empty()) {
     write_text_file(command.common.report_file, json_text(report_json(description, report, mesh)) + "\n");
@@ -126,7 +145,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<MeshCommand>();
   CLI::App* mesh = app.add_subcommand("mesh", "mesh a segmented image");
   mesh->add_option("image", command->image, kImageFormats)->required();
-  mesh->add_option("--out", command->out, "mesh file: .vtu, .vtk or .msh")->required();
+  mesh->add_option("--out", command->out, written_mesh_text())->required();
   mesh->add_option("--preset", command->preset,
                    "quality: our best; paper: the published method [" + command->preset + "]")
       ->check(CLI::IsMember(preset_names()));
@@ -134,6 +153,10 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
                                   OptionGroup::improvement, OptionGroup::deformation}) {
     add_option_flags(*mesh, group, preset_columns(), command->settings);
   }
+  mesh->add_option("--order", command->order,
+                   "1: tets of four nodes; 2: of ten, the edges on boundaries along the smooth ones [1]")
+      ->check(CLI::IsMember({1, 2}));
+  add_mesh_file_options(*mesh, command->writing);
   add_image_options(*mesh, command->input);
   mesh->add_flag("--long-work", command->long_work,
                  "take a file of less than 16 KB whose boundaries look like minutes of work")

@@ -9,7 +9,7 @@
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/option_table.hpp"
 #include "mesher/pipeline/presets.hpp"
 #include "mesher/pipeline/testing_option_samples.hpp"
@@ -72,7 +72,7 @@ TEST_F(MeshCommand, RefusesBadInputWithOneLine) {
   expect_refusal("mesh " + at("absent.nii") + " --out " + at("m.vtu"), "does not exist");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("none/m.vtu"), "create it first");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out /proc/m.vtu", "choose another place");
-  expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.stl"), "use .vtu, .vtk or .msh");
+  expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.stl"), "use .vtu, .vtk, .msh");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.vtu") + " --fidelity 2", "--fidelity");
   expect_refusal("mesh " + at("ball.nii.gz") + " --out " + at("m.vtu") + " --material-fidelity 9=0.5",
                  "no label 9");

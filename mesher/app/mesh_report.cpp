@@ -14,6 +14,7 @@ nlohmann::json used_options_json(const RunDescription& run, const MeshImageRepor
                                          OptionGroup::improvement, OptionGroup::deformation});
   options["preset"] = run.preset;
   options["threads"] = run.threads;
+  options["order"] = run.order;
   options["lattice_spacing_mm"] = report.lattice_spacing_mm;
   options["finest_spacing_mm"] = report.finest_spacing_mm;
   return options;
@@ -30,6 +31,14 @@ nlohmann::json fidelity_json(const MeshImageReport& report) {
                     {"image_voxels", f.image_voxels}});
   }
   return list;
+}
+
+nlohmann::json curve_json(const CurveReport& curve) {
+  return {{"boundary_edges", curve.boundary_edges},
+          {"curved_edges", curve.curved},
+          {"held_back_edges", curve.held_back},
+          {"straightened_edges", curve.straight},
+          {"least_relative_jacobian", curve.least_jacobian}};
 }
 
 nlohmann::json topology_json(const TopologyReport& topology, const std::vector<TopologyPlace>& places) {
@@ -174,6 +183,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
           {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
           {"deformation", deformation_json(report.deform)},
           {"improvement", run.options.improve.enabled ? improvement_json(report.improve) : nlohmann::json()},
+          {"quadratic", run.order == 2 ? curve_json(report.curve) : nlohmann::json()},
           {"warnings", report.warnings},
           {"seconds",
            {{"total", report.seconds},

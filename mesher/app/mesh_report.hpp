@@ -12,6 +12,7 @@ struct RunDescription {
   std::string preset;
   int threads = 0;           ///< in force
   MeshImageOptions options;  ///< the preset's, with the user's settings in place of its own
+  int order = 1;             ///< of the tets
   ImageFrame frame;          ///< of the image
   double reading_seconds = 0;
   double writing_seconds = 0;

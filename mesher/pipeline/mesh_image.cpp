@@ -7,11 +7,11 @@
 #include <map>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/domain/tolerances.hpp"
 #include "mesher/lattice/bcc_lattice.hpp"
 #include "mesher/lattice/part_raster.hpp"
 #include "mesher/lattice/red_green.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 
 namespace cbc3d {
 namespace {
@@ -428,8 +428,13 @@ void require_dial_has_effect(const MeshImageOptions& options) {
 
 }  // namespace
 
-Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progress& progress,
-                MeshImageReport& report) {
+namespace {
+
+/// Cleans and meshes the image and hands the mesh in local mm to `finish` with the domain that it was made
+/// for.
+template <typename Finish>
+auto mesh_and_finish(LabelImage image, const MeshImageOptions& options, const Progress& progress,
+                     MeshImageReport& report, const Finish& finish) {
   require_dial_has_effect(options);
   StageLog log(image, options, progress, report);
 
@@ -438,8 +443,33 @@ Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progres
 
   const ImageDomain domain(image, options.domain);  // the image does not change any more
   const MaterialMesh mesh = mesh_clean_image(domain, options, log, progress, report);
+  auto finished = finish(mesh, domain, log);
   log.report_seconds();
-  return to_physical_mesh(mesh, image);
+  return finished;
+}
+
+}  // namespace
+
+Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progress& progress,
+                MeshImageReport& report) {
+  return mesh_and_finish(std::move(image), options, progress, report,
+                         [](const MaterialMesh& mesh, const ImageDomain& domain, StageLog& /*log*/) {
+                           return to_physical_mesh(mesh, domain.image());
+                         });
+}
+
+QuadraticMesh mesh_image_quadratic(LabelImage image, const MeshImageOptions& options,
+                                   const Progress& progress, MeshImageReport& report) {
+  if (options.mixed) {
+    throw InputError(
+        "mixed: pyramids and hexahedra have no quadratic form here; leave it out or take order 1", "mixed");
+  }
+  return mesh_and_finish(std::move(image), options, progress, report,
+                         [&report](const MaterialMesh& mesh, const ImageDomain& domain, StageLog& log) {
+                           return log.run("quadratic_tets", 0.98, [&] {
+                             return curved_quadratic_mesh(mesh, domain, {}, report.curve);
+                           });
+                         });
 }
 
 }  // namespace cbc3d

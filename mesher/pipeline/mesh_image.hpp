@@ -16,6 +16,7 @@
 #include "mesher/lattice/refine_lattice.hpp"
 #include "mesher/mixed/hex_core.hpp"
 #include "mesher/preprocess/clean_image.hpp"
+#include "mesher/quadratic/curved_mesh.hpp"
 
 namespace cbc3d {
 
@@ -62,6 +63,7 @@ struct MeshImageReport {
   MixReport mix;
   DeformReport deform;
   ImproveReport improve;
+  CurveReport curve;  ///< of quadratic meshes
   std::vector<std::string> warnings;
 };
 
@@ -70,5 +72,10 @@ struct MeshImageReport {
 /// bytes come out at any thread count.
 Mesh mesh_image(LabelImage image, const MeshImageOptions& options, const Progress& progress,
                 MeshImageReport& report);
+
+/// The same mesh with tets of ten nodes, whose edges on boundaries follow the image's smooth ones. Throws
+/// InputError for the option mixed.
+QuadraticMesh mesh_image_quadratic(LabelImage image, const MeshImageOptions& options,
+                                   const Progress& progress, MeshImageReport& report);
 
 }  // namespace cbc3d

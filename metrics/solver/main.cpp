@@ -10,9 +10,9 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/json_text.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "metrics/solver/manufactured.hpp"
 #include "metrics/solver/sphere_phantoms.hpp"
 

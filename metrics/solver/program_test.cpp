@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "metrics/solver/testing.hpp"
 
 namespace cbc3d::solver {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "cases/adversarial.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "reports/run/child_process.hpp"
 

@@ -7,9 +7,9 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "metrics/evaluate.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/results/evaluation_text.hpp"
@@ -32,6 +32,7 @@ struct EvaluateCommandOptions {
   double solve_timeout_s = RunOptions{}.timeout_s;
   metrics::EvaluateOptions metrics;
   ReadImageOptions reading;
+  ReadMeshOptions mesh_reading;
 };
 
 /// What the image is, for the table of image data.
@@ -91,7 +92,7 @@ int evaluate(const EvaluateCommandOptions& options) {
   judged.shapes = shapes_of(options);
   TerminalProgress progress(options.quiet);
   progress.step("reading", 0);
-  const Mesh mesh = read_mesh(options.mesh);
+  const Mesh mesh = read_mesh(options.mesh, options.mesh_reading);
   std::vector<std::string> warnings;
   const LabelImage image = read_label_image(options.image, options.reading, &warnings);
   for (const std::string& warning : warnings) {
@@ -140,8 +141,7 @@ Command add_evaluate_command(CLI::App& app) {
   auto options = std::make_shared<EvaluateCommandOptions>();
   CLI::App* parser = app.add_subcommand(
       "evaluate", "Judges a mesh against a segmentation: counts, quality, fidelity, topology and faults");
-  parser->add_option("MESH", options->mesh, "mesh with an integer cell array `label`: .vtu, .vtk or .msh")
-      ->required();
+  parser->add_option("MESH", options->mesh, "mesh with labelled cells: " + read_extensions())->required();
   parser->add_option("IMAGE", options->image, "label image: NIfTI, NRRD, MHA, INRIMAGE, ...")->required();
   parser->add_option("--json", options->json, "write all figures to this file");
   parser
@@ -169,6 +169,12 @@ Command add_evaluate_command(CLI::App& app) {
   parser->add_flag(
       "--round", options->reading.round_values,
       "take values within 1e-4 of an integer as that integer, of images of floats (round_values)");
+  parser
+      ->add_option(
+          "--label-array", options->mesh_reading.label_array,
+          "cell array of the mesh that has the labels (label_array): of .vtu and .vtk any [label], of .msh "
+          "gmsh:physical or gmsh:geometrical [gmsh:physical]")
+      ->type_name("NAME");
   add_phantom_options(*parser, options);
   add_threads_option(parser, options->threads);
   parser->add_flag("--quiet", options->quiet, "no progress and no figures on the screen");

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "reports/results/result.hpp"
 #include "reports/run/child_process.hpp"

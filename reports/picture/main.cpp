@@ -5,9 +5,9 @@
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
-#include "mesher/core/mesh_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "reports/picture/scene.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "reports/run/child_process.hpp"
 #include "reports/run/provenance.hpp"
 #include "reports/run/reference_work.hpp"

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "mesher/core/mesh_io.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 
 namespace {
 

@@ -1,0 +1,71 @@
+#include "mesher/app/surface_command.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "mesher/app/mesh_files.hpp"
+#include "mesher/app/subcommand.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/core/terminal_progress.hpp"
+#include "mesher/mesh_formats/surface_files.hpp"
+
+namespace cbc3d {
+namespace {
+
+const std::map<std::string, SurfaceParts> kParts = {
+    {"label", SurfaceParts::label}, {"interface", SurfaceParts::interface}, {"all", SurfaceParts::all}};
+
+struct SurfaceCommand {
+  std::string mesh, out, per = "label";
+  ReadMeshOptions reading;
+  LabelNames names;
+  CommonOptions common;
+};
+
+SurfaceMesh surface_of(const SurfaceCommand& command) {
+  const Mesh mesh = read_mesh(command.mesh, command.reading);
+  try {
+    return surface_of(mesh, kParts.at(command.per), command.names);
+  } catch (const InputError& error) {
+    throw InputError("'" + command.mesh + "': " + error.what());
+  }
+}
+
+void run(const SurfaceCommand& command) {
+  require_writable_surface_path(command.out);
+  TerminalProgress progress(command.common.quiet);
+  progress.step("reading " + command.mesh, 0);
+  const SurfaceMesh surface = surface_of(command);
+  progress.step("writing " + command.out, 0.5);
+  const auto files = write_surface(surface, command.out);
+  progress.done();
+  std::size_t triangles = 0;
+  for (const SurfacePart& part : surface.parts) triangles += part.triangles.size();
+  for (const auto& file : files) progress.line("wrote " + file.string());
+  progress.line(std::to_string(surface.parts.size()) + " parts, " + std::to_string(triangles) + " triangles");
+}
+
+}  // namespace
+
+void add_surface_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<SurfaceCommand>();
+  CLI::App* surface = app.add_subcommand("surface", "the surfaces of a labelled volume mesh as triangles");
+  surface->add_option("mesh", command->mesh, read_mesh_text("labelled volume mesh"))->required();
+  surface
+      ->add_option(
+          "-o,--out", command->out,
+          "surface file: .obj and .glb have all parts in one, .stl and .ply one each, whose name is then "
+          "OUT-PART.stl")
+      ->required();
+  surface
+      ->add_option(
+          "--per", command->per,
+          "label: a part for each label, normals outwards; interface: one for each pair of labels and each "
+          "outer surface, normals out of the lower label; all: every facet once, in one part [label]")
+      ->check(CLI::IsMember({"label", "interface", "all"}));
+  add_label_array_option(*surface, command->reading);
+  complete_command(*surface, command->common, exit_code, [command] { run(*command); });
+}
+
+}  // namespace cbc3d

@@ -1,0 +1,199 @@
+#include "mesher/mesh_formats/vtk_reading.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkDataArraySelection.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "mesher/core/child_process.hpp"
+#include "mesher/core/error.hpp"
+#include "mesher/mesh_formats/grid_arrays.hpp"
+#include "mesher/mesh_formats/vtk_faults.hpp"
+
+namespace cbc3d {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kLabelArray = "label";
+
+/// What the child found, before the arrays.
+enum class Finding : std::uint64_t { grid, no_grid, no_label_array, arrays_of_no_length };
+
+template <typename T>
+void send(const ChildOutput& out, const std::vector<T>& values) {
+  const std::uint64_t count = values.size();
+  out.write(std::as_bytes(std::span(&count, 1)));
+  out.write(std::as_bytes(std::span(values)));
+}
+
+/// False where the child ends before. Its count is bounded by what its memory could hold.
+template <typename T>
+bool receive(ChildProcess& child, std::uint64_t most_bytes, std::vector<T>& values) {
+  std::uint64_t count = 0;
+  if (!child.read(std::as_writable_bytes(std::span(&count, 1))) || count > most_bytes / sizeof(T)) {
+    return false;
+  }
+  values.resize(count);
+  return child.read(std::as_writable_bytes(std::span(values)));
+}
+
+std::vector<std::int64_t> integers_of(vtkDataArray& array) {
+  std::vector<std::int64_t> values(static_cast<std::size_t>(array.GetNumberOfValues()));
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    values[n] = static_cast<std::int64_t>(array.GetComponent(static_cast<vtkIdType>(n), 0));
+  }
+  return values;
+}
+
+GridArrays arrays_of(vtkUnstructuredGrid& grid, vtkDataArray& labels) {
+  GridArrays arrays;
+  arrays.points.resize(static_cast<std::size_t>(grid.GetNumberOfPoints()));
+  for (std::size_t v = 0; v < arrays.points.size(); ++v) {
+    grid.GetPoint(static_cast<vtkIdType>(v), &arrays.points[v].x);
+  }
+  vtkUnsignedCharArray& types = *grid.GetCellTypesArray();
+  arrays.types.assign(types.GetPointer(0), types.GetPointer(0) + types.GetNumberOfValues());
+  arrays.offsets = integers_of(*grid.GetCells()->GetOffsetsArray());
+  arrays.connectivity = integers_of(*grid.GetCells()->GetConnectivityArray());
+  arrays.labels.resize(static_cast<std::size_t>(labels.GetNumberOfTuples()));
+  for (std::size_t c = 0; c < arrays.labels.size(); ++c) {
+    arrays.labels[c] = labels.GetComponent(static_cast<vtkIdType>(c), 0);
+  }
+  return arrays;
+}
+
+std::string cell_arrays_of(vtkUnstructuredGrid& grid) {
+  std::string names;
+  for (int a = 0; a < grid.GetCellData()->GetNumberOfArrays(); ++a) {
+    const char* const name = grid.GetCellData()->GetArrayName(a);
+    names += std::string(names.empty() ? "'" : ", '") + (name == nullptr ? "" : name) + "'";
+  }
+  return names;
+}
+
+void send_grid(vtkUnstructuredGrid* grid, const std::string& label_array, const std::string& others,
+               const ChildOutput& out) {
+  const auto say = [&out](Finding finding) { out.write(std::as_bytes(std::span(&finding, 1))); };
+  if (grid == nullptr || grid->GetNumberOfCells() == 0 || grid->GetPoints() == nullptr ||
+      grid->GetCellTypesArray() == nullptr) {
+    return say(Finding::no_grid);
+  }
+  vtkDataArray* const labels = grid->GetCellData()->GetArray(label_array.c_str());
+  if (labels == nullptr) {
+    say(Finding::no_label_array);
+    const std::string found = others.empty() ? cell_arrays_of(*grid) : others;
+    return send(out, std::vector<char>(found.begin(), found.end()));
+  }
+  if (labels->GetNumberOfTuples() != grid->GetNumberOfCells() ||
+      grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells()) {
+    return say(Finding::arrays_of_no_length);
+  }
+  const GridArrays arrays = arrays_of(*grid, *labels);
+  say(Finding::grid);
+  send(out, arrays.points);
+  send(out, arrays.types);
+  send(out, arrays.offsets);
+  send(out, arrays.connectivity);
+  send(out, arrays.labels);
+}
+
+/// Arrays that are not asked for are not read, so that they cannot be damaged.
+/// Returns the names of all cell arrays where the reader knows them beforehand.
+std::string select_label_array(vtkXMLUnstructuredGridReader& reader, const std::string& label_array) {
+  reader.UpdateInformation();
+  reader.GetPointDataArraySelection()->DisableAllArrays();
+  vtkDataArraySelection& arrays = *reader.GetCellDataArraySelection();
+  std::string names;
+  for (int a = 0; a < arrays.GetNumberOfArrays(); ++a) {
+    names += std::string(names.empty() ? "'" : ", '") + arrays.GetArrayName(a) + "'";
+  }
+  arrays.DisableAllArrays();
+  arrays.EnableArray(label_array.c_str());
+  return names;
+}
+std::string select_label_array(vtkUnstructuredGridReader& /*reader*/, const std::string& /*label_array*/) {
+  return {};
+}
+
+template <typename Reader>
+void read_and_send(const fs::path& path, const std::string& label_array, const ChildOutput& out) {
+  const VtkSilence silence;
+  vtkNew<Reader> reader;
+  vtkNew<VtkFaults> faults;
+  reader->AddObserver(vtkCommand::ErrorEvent, faults);
+  reader->SetFileName(path.c_str());
+  const std::string arrays = select_label_array(*reader, label_array);
+  reader->Update();
+  send_grid(faults->text.empty() ? reader->GetOutput() : nullptr, label_array, arrays, out);
+}
+
+/// Memory for the most that deflate can pack into the file, and time for a slow disk.
+ChildLimits limits_of(const fs::path& path) {
+  constexpr std::uint64_t kLeastMemory = std::uint64_t{1} << 29U, kMostPacked = 1100;
+  constexpr std::uint64_t kBytesPerSecond = 2000000;
+  const std::uint64_t bytes = fs::file_size(path);
+  return {.memory_bytes = kLeastMemory + kMostPacked * bytes,
+          .cpu_seconds = static_cast<unsigned>(3 + bytes / kBytesPerSecond)};
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+  throw InputError("cannot read '" + path.string() + "': " + what);
+}
+
+[[noreturn]] void fail_without_labels(const fs::path& path, const std::string& label_array,
+                                      const std::string& others) {
+  fail(path, "it has no cell array '" + label_array + "'" +
+                 (others.empty()
+                      ? "; add one integer label for each cell"
+                      : ", but " + others.substr(0, 200) + "; name the one with the labels by label_array"));
+}
+
+GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs::path& path,
+                        const std::string& label_array) {
+  Finding finding = Finding::no_grid;
+  GridArrays grid;
+  const bool told = child.read(std::as_writable_bytes(std::span(&finding, 1)));
+  if (told && finding == Finding::no_grid) {
+    fail(path, "not a VTK unstructured grid with cells, or a damaged one");
+  }
+  if (told && finding == Finding::no_label_array) {
+    std::vector<char> others;
+    receive(child, most_bytes, others);
+    fail_without_labels(path, label_array, {others.begin(), others.end()});
+  }
+  if (told && finding == Finding::arrays_of_no_length) {
+    fail(path,
+         "its cells, their types and their labels are not as many; the file is damaged, write it again");
+  }
+  if (told && receive(child, most_bytes, grid.points) && receive(child, most_bytes, grid.types) &&
+      receive(child, most_bytes, grid.offsets) && receive(child, most_bytes, grid.connectivity) &&
+      receive(child, most_bytes, grid.labels)) {
+    return grid;
+  }
+  fail(path, "VTK's reader fails on it (" + child.wait() + "); the file is damaged, write it again");
+}
+
+}  // namespace
+
+Mesh read_vtk(const fs::path& path, VtkFormat format, const std::string& label_array) {
+  const std::string array = label_array.empty() ? kLabelArray : label_array;
+  const ChildLimits limits = limits_of(path);
+  ChildProcess child(limits, [&](const ChildOutput& out) {
+    format == VtkFormat::xml ? read_and_send<vtkXMLUnstructuredGridReader>(path, array, out)
+                             : read_and_send<vtkUnstructuredGridReader>(path, array, out);
+  });
+  const GridArrays grid = receive_grid(child, limits.memory_bytes, path, array);
+  return mesh_of_grid(grid, "cannot read '" + path.string() + "'");
+}
+
+}  // namespace cbc3d
