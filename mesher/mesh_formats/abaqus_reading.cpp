@@ -183,9 +183,10 @@ class AbaqusReader {
   }
 
   void read_node(const std::vector<std::string_view>& fields) {
-    if (fields.size() < 4)
+    if (fields.size() < 4) {
       file_.fail(
           "a node has no number and three coordinates; the file is truncated or damaged, export it again");
+    }
     const std::int64_t number = file_.integer_of(fields[0], "nodes");
     builder_.add_node(number, {file_.real_of(fields[1], "nodes"), file_.real_of(fields[2], "nodes"),
                                file_.real_of(fields[3], "nodes")});
@@ -195,8 +196,9 @@ class AbaqusReader {
   void read_element(const std::vector<std::string_view>& fields) {
     for (const std::string_view field : fields) pending_.push_back(file_.integer_of(field, "elements"));
     const std::size_t wanted = row_of(kind_).corners + std::size_t{1};
-    if (pending_.size() > wanted)
+    if (pending_.size() > wanted) {
       file_.fail("an element has more nodes than its type; the file is damaged, export it again");
+    }
     if (pending_.size() < wanted) return;
     Element element{pending_[0], kind_, {}, set_};
     std::copy(pending_.begin() + 1, pending_.end(), element.nodes.begin());

@@ -88,8 +88,13 @@ double stretch_of(const Bar& bar, std::span<const Vec3> points, const std::strin
   std::string line;
   std::getline(lines, line);
   const FileMesh view(bar.mesh, {});
-  for (unsigned long element = 0, face = 0; std::getline(lines, line) && line[0] != '*';) {
-    if (std::sscanf(line.c_str(), "%lu, S%lu", &element, &face) != 2) ADD_FAILURE() << line;
+  while (std::getline(lines, line) && line[0] != '*') {
+    std::istringstream words(line);
+    std::size_t element = 0, face = 0;
+    std::string comma;
+    words >> element >> comma;
+    words.ignore(2);  // " S"
+    if (!(words >> face)) ADD_FAILURE() << line;
     std::array<VertexId, 6> nodes;
     view.nodes_of({static_cast<std::uint32_t>(element - 1), static_cast<std::uint8_t>(face - 1)}, nodes);
     const bool at_end = std::all_of(nodes.begin(), nodes.begin() + 3,
@@ -106,7 +111,7 @@ double stretch_of(const Bar& bar, std::span<const Vec3> points, const std::strin
   int count = 0;
   while (std::getline(results, line)) {
     double node = 0, u = 0, v = 0, w = 0;
-    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf", &node, &u, &v, &w) == 4) {
+    if (std::istringstream(line) >> node >> u >> v >> w) {
       sum += u;
       ++count;
     }

@@ -72,6 +72,7 @@ class InterfaceTable {
   }
   std::vector<Interface> take() {
     std::vector<Interface> all;
+    all.reserve(table_.size());
     for (auto& [key, interface] : table_) all.push_back(std::move(interface));
     return all;
   }

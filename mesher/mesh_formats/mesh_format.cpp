@@ -65,6 +65,7 @@ std::span<const MeshFormat> mesh_formats() {
 
 std::vector<std::string> mesh_format_names() {
   std::vector<std::string> names;
+  names.reserve(kFormats.size());
   for (const MeshFormat& format : kFormats) names.emplace_back(format.name);
   return names;
 }
@@ -79,9 +80,7 @@ std::string read_extensions() {
 
 const MeshFormat& format_of(const fs::path& path, const std::string& name) {
   const std::string extension = path.extension().string();
-  bool extension_known = false;
   for (const MeshFormat& format : kFormats) {
-    extension_known |= format.extension == extension;
     if (name.empty() ? format.extension == extension : format.name == name) {
       if (format.extension == extension) return format;
       throw InputError("'" + path.string() + "': the format " + name + " has the extension " +
