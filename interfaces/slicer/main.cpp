@@ -18,7 +18,7 @@ using cbc3d::slicer::ModuleRun;
 /// Every option by its flag. An empty text and kPresetChoice leave the preset's value.
 void add_options(CLI::App& app, ModuleRun& run) {
   for (const cbc3d::OptionRow& row : cbc3d::option_table()) {
-    if (row.kind == cbc3d::OptionKind::on_off) {
+    if (cbc3d::slicer::widget_of(row) == cbc3d::slicer::Widget::boolean) {
       app.add_flag_callback(
           "--" + row.name, [&] { run.settings.emplace_back(row.name, true); }, row.text);
       continue;

@@ -90,6 +90,10 @@ std::string constraints_of(const OptionRow& row) {
          value_text(step) + "</step>\n      </constraints>\n";
 }
 
+std::vector<std::string> choices_of(const OptionRow& row) {
+  return row.kind == OptionKind::on_off ? std::vector<std::string>{"true", "false"} : row.choices;
+}
+
 std::string choices_of(const std::vector<std::string>& choices) {
   std::string text;
   for (const std::string& choice : choices) {
@@ -114,7 +118,8 @@ std::string parameter_of(const OptionRow& row) {
       return parameter("double", head + element("default", defaults_of(row).front()) + constraints_of(row));
     case Widget::enumeration:
       return parameter("string-enumeration", head + element("default", kPresetChoice) +
-                                                 element("element", kPresetChoice) + choices_of(row.choices));
+                                                 element("element", kPresetChoice) +
+                                                 choices_of(choices_of(row)));
     case Widget::text:
       break;
   }
@@ -180,8 +185,9 @@ std::string folded_group(const FoldedGroup& folded) {
 
 Widget widget_of(const OptionRow& row) {
   switch (row.kind) {
-    case OptionKind::on_off:
-      return Widget::boolean;
+    case OptionKind::on_off:  // a box without a tick says nothing, which must be what every preset has
+      return has_one_default(row) && defaults_of(row).front() == "false" ? Widget::boolean
+                                                                         : Widget::enumeration;
     case OptionKind::choice:
       return Widget::enumeration;
     case OptionKind::label_numbers:

@@ -13,7 +13,7 @@ enum class Widget {
   boolean,      ///< given without a value when it is ticked
   integer,      ///< a number with the one default that all presets have
   real,         ///< the same, not whole
-  enumeration,  ///< one of the choices, or kPresetChoice
+  enumeration,  ///< one of the choices, or of true and false, or kPresetChoice
   text,         ///< anything else; empty for the preset's own
 };
 

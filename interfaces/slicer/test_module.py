@@ -118,7 +118,8 @@ class Module(unittest.TestCase):
             self.check_model()
 
     def test_it_runs_with_other_values(self):
-        done = self.run_with({"preset": "paper", "connectivity": "face", "mixed": "true", "size": "1=3,7=2", "iterations": "2"})
+        done = self.run_with({"preset": "paper", "connectivity": "face", "mixed": "true", "size": "1=3,7=2", "iterations": "2",
+                              "topologyChecks": "true"})
         self.assertEqual(done.returncode, 0, done.stderr)
         self.check_progress(done.stdout)
 
