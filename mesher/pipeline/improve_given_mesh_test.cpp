@@ -9,7 +9,9 @@
 namespace cbc3d {
 namespace {
 
-/// The lattice's mesh of the image, whose angles are below the improvement's goal.
+constexpr double kGoalDeg = 23;
+
+/// The published method's mesh of the image, whose smallest angle is below the goal.
 Mesh coarse_mesh(const LabelImage& image) {
   MeshImageReport report;
   return mesh_image(image, preset_options("paper", image.frame), Progress(), report);
@@ -19,12 +21,14 @@ TEST(ImproveGivenMesh, ReachesTheGoalWithAndWithoutAnImage) {
   const LabelImage image = testing::ball_image(20, 1, 7, 3);
   const Mesh mesh = coarse_mesh(image);
   for (const LabelImage* given : {&image, static_cast<const LabelImage*>(nullptr)}) {
+    ImproveGivenMeshOptions options;
+    options.improve.min_dihedral_deg = kGoalDeg;
     ImproveGivenMeshReport report;
-    const Mesh improved = improve_given_mesh(mesh, given, {}, Progress(), report);
+    const Mesh improved = improve_given_mesh(mesh, given, options, Progress(), report);
     EXPECT_EQ(report.before.tets, mesh.tets.size());
     EXPECT_EQ(report.after.tets, improved.tets.size());
-    EXPECT_LT(report.before.min_dihedral_deg, 19);
-    EXPECT_GE(report.after.min_dihedral_deg, 19.99);
+    EXPECT_LT(report.before.min_dihedral_deg, kGoalDeg - 1);
+    EXPECT_GE(report.after.min_dihedral_deg, kGoalDeg - 0.01);
     EXPECT_NEAR(testing::smallest_dihedral_deg(improved), report.after.min_dihedral_deg, 1e-6);
     EXPECT_EQ(labels_of(improved), labels_of(mesh));
     EXPECT_GT(report.max_deviation_mm, 0);
