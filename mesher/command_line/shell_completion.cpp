@@ -23,9 +23,9 @@ std::string joined(const std::vector<std::string>& parts) {
 }
 
 std::string names_of(const std::vector<CommandTree>& commands) {
-  std::vector<std::string> names;
-  for (const CommandTree& command : commands) names.push_back(command.name);
-  return joined(names);
+  std::string names;
+  for (const CommandTree& command : commands) names += (names.empty() ? "" : " ") + command.name;
+  return names;
 }
 
 std::string flags_of(const std::vector<CommandOption>& options) {

@@ -47,7 +47,7 @@ TEST_F(ShellCompletion, BashOffersCommandsOptionsAndChoices) {
 }
 
 TEST_P(ShellCompletion, NamesEveryFlagAndIsUnderstood) {
-  const std::string shell = GetParam();
+  const std::string& shell = GetParam();
   const std::string text = shell_completion(command_tree(*testing::knife(), "bread-knife"), shell);
   for (const char* name : {"cut", "sharpen", "thickness", "crust", "board", "crumbs", "keep", "beech"}) {
     EXPECT_NE(text.find(name), std::string::npos) << name;
