@@ -15,6 +15,11 @@ function(cbc3d_room folder)
     target_include_directories(${room} PUBLIC
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cbc3d>)
     target_compile_features(${room} PUBLIC cxx_std_20)
+    # What the library consists of may become part of shared libraries, such as the Python module, whose own it stays.
+    if(folder MATCHES "^(mesher|metrics)(/|$)")
+      set_target_properties(${room} PROPERTIES
+        POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
   else()
     add_library(${room} INTERFACE)
     target_link_libraries(${room} INTERFACE ${rooms})
@@ -31,7 +36,8 @@ function(cbc3d_program folder name)
   set(rooms ${ARG_ROOMS})
   list(TRANSFORM rooms PREPEND cbc3d_)
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
-  if(NOT folder MATCHES ":tests$")
+  # Programs of interfaces/ are installed where the programs that use them look.
+  if(NOT folder MATCHES ":tests$|^interfaces/")
     set_property(GLOBAL APPEND PROPERTY CBC3D_INSTALLED_PROGRAMS ${name})
   endif()
   target_link_libraries(${name} PRIVATE cbc3d_flags ${rooms} ${ARG_LIBRARIES})

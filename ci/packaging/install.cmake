@@ -37,7 +37,7 @@ if(CBC3D_PROGRAMS)
 endif()
 
 file(GLOB_RECURSE documents RELATIVE ${PROJECT_SOURCE_DIR}
-  mesher/*.md metrics/*.md baselines/*.md cases/*.md reports/*.md reports/gallery/*.jpg)
+  mesher/*.md metrics/*.md interfaces/*.md baselines/*.md cases/*.md reports/*.md reports/gallery/*.jpg)
 foreach(document README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE ${documents})
   cmake_path(GET document PARENT_PATH folder)
   install(FILES ${document} DESTINATION ${doc_dir}/${folder})
@@ -71,5 +71,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For those who compile against the libraries, and for the pictures of a run without a screen.
 set(CPACK_DEBIAN_MAIN_PACKAGE_SUGGESTS
-  "cbc3d-baselines, g++, cmake, libinsighttoolkit5-dev, libvtk9-dev, zlib1g-dev, libbz2-dev, libdeflate-dev, xvfb, xauth, libgl1-mesa-dri, librsvg2-bin")
+  "cbc3d-baselines, python3-numpy, python3-meshio, g++, cmake, libinsighttoolkit5-dev, libvtk9-dev, zlib1g-dev, libbz2-dev, libdeflate-dev, xvfb, xauth, libgl1-mesa-dri, librsvg2-bin")
 include(CPack)

@@ -12,10 +12,29 @@
 #include "mesher/app/segment_command.hpp"
 #include "mesher/app/surface_command.hpp"
 #include "mesher/app/tile_command.hpp"
+#include "mesher/command_line/program_help.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/one_line.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/pipeline/option_table.hpp"
+
+namespace {
+
+cbc3d::ProgramHelp program_help() {
+  return {
+      .name = "cbc3d",
+      .version = CBC3D_VERSION,
+      .summary = "segmented images to tetrahedral or mixed meshes",
+      .examples = {{"cbc3d mesh labels.nii.gz --out mesh.vtu",
+                    "Meshes every label of a segmentation, with our best preset."},
+                   {"cbc3d mesh labels.nrrd --out mesh.msh --elements 200000 --report report.json",
+                    "About 200,000 elements for Gmsh, and a report of what was done and what is missing."},
+                   {"cbc3d improve other.vtu labels.nii.gz --out better.vtu --min-dihedral 15",
+                    "Repairs the bad tets of any labelled mesh, towards the boundaries of its image."}},
+      .exit_codes = {"success", "not used", "bad usage or bad input", "a job that failed"}};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   cbc3d::let_waiting_threads_sleep(argv);
@@ -23,6 +42,7 @@ int main(int argc, char** argv) {
   CLI::App app{"CBC3D: from a segmented multi-label image to a tetrahedral or mixed mesh"};
   app.require_subcommand(1);
   app.set_version_flag("--version", CBC3D_VERSION);
+  cbc3d::add_program_help(app, program_help());
   int exit_code = cbc3d::kExitSuccess;
   try {
     cbc3d::add_mesh_command(app, exit_code);

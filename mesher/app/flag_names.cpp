@@ -13,10 +13,11 @@ namespace {
 using Replacement = std::pair<std::string, std::string>;
 
 /// What is no option's name: two ordinary words, a switch that is named by its effect, and options of
-/// `segment` and of the reading of images.
+/// `segment`, of `improve` and of the reading of images.
 const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifold-voxels"},
                                            {"connectivity vertex", "--connectivity vertex"},
                                            {"edge_gradient and contrast", "--edge-gradient and --contrast"},
+                                           {"max_deviation_mm", "--max-deviation"},
                                            {"accept_shear", "--accept-shear"},
                                            {"round_values", "--round"},
                                            {"many_labels", "--many-labels"},

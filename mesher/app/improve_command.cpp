@@ -1,11 +1,12 @@
 #include "mesher/app/improve_command.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
+#include "mesher/app/flag_names.hpp"
 #include "mesher/app/image_input.hpp"
 #include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_report.hpp"
@@ -14,25 +15,17 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
-#include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
-#include "mesher/domain/image_domain.hpp"
-#include "mesher/domain/mesh_domain.hpp"
-#include "mesher/improve/improve_mesh.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
-#include "mesher/topology/labelled_tets.hpp"
-#include "mesher/topology/orient_tets.hpp"
+#include "mesher/pipeline/improve_given_mesh.hpp"
 
 namespace cbc3d {
 namespace {
 
-// The reach of the samples, as a multiple of how far facets may be from the boundary.
-constexpr double kReachPerDeviation = 10;
-
 struct ImproveCommand {
   std::string mesh, image, out;
-  MeshImageOptions defaults{.improve = {.enabled = true, .repair_rounds = 12, .untangle_rounds = 6}};
+  MeshImageOptions defaults{.improve = given_mesh_defaults()};
   OptionSettings settings;
   ReadMeshOptions reading;
   MeshFileOptions writing;
@@ -42,118 +35,39 @@ struct ImproveCommand {
   CommonOptions common;
 };
 
-/// A mesh under improvement, and what it was before.
-struct Subject {
-  MaterialMesh mesh;
-  LabelImage image;  ///< an empty one with the mesh's labels where none was given
-  OrientReport orient;
-  TetMeasures before, after;
-  ImproveReport improve;
-  double max_deviation_mm = 0;
-  std::vector<std::string> warnings;
-};
-
 std::string text_of(const char* format, double a, double b) {
   char text[256];
   std::snprintf(text, sizeof text, format, a, b);
   return text;
 }
 
-/// A mesh that lies elsewhere would be fitted to boundaries that are not its own.
-void require_placement(const Mesh& mesh, Subject& subject) {
-  const Placement placement = placement_of(mesh, subject.image);
-  if (placement.elsewhere) {
-    throw InputError(placement.finding);
-  }
-  if (!placement.finding.empty()) {
-    subject.warnings.push_back(placement.finding);
-  }
+ImproveGivenMeshOptions options_of(const ImproveCommand& command) {
+  MeshImageOptions options = command.defaults;
+  apply_settings(command.settings, options);
+  return {
+      .improve = options.improve, .max_deviation_mm = command.max_deviation_mm, .decimate = command.decimate};
 }
 
-Subject read(ImproveCommand& command) {
-  Subject subject;
+/// Reads, improves and adds what was found while reading to the report's warnings.
+Mesh improved_mesh(ImproveCommand& command, const Progress& progress, ImproveGivenMeshReport& report) {
+  progress.step("reading " + command.mesh, 0);
   Mesh mesh = read_mesh(command.mesh, command.reading);
   require_writable_labels(labels_of(mesh), command.out);
+  std::optional<LabelImage> image;
   if (!command.image.empty()) {
-    subject.image = read_input_image(command.image, command.input);
-    subject.warnings = command.input.warnings;
+    image = read_input_image(command.image, command.input);
+    report.warnings = command.input.warnings;
   }
   try {
-    require_improvable(mesh);
-    if (command.image.empty()) {
-      subject.mesh = number_labels(std::move(mesh), subject.image.labels);
-    } else {
-      subject.mesh = to_material_mesh(mesh, subject.image);  // labels that the image lacks are named first
-      require_placement(mesh, subject);
-    }
-    subject.orient = orient_tets(subject.mesh);
-    if (subject.mesh.tets.empty()) {
-      throw InputError("all tets of the mesh have a node twice; give one with tets that have a volume");
-    }
+    mesh =
+        improve_given_mesh(std::move(mesh), image ? &*image : nullptr, options_of(command), progress, report);
   } catch (const InputError& error) {
     throw InputError("'" + command.mesh + "': " + error.what());
   }
-  return subject;
-}
-
-ImproveOptions options_of(const ImproveCommand& command) {
-  MeshImageOptions options = command.defaults;
-  apply_settings(command.settings, options);
-  options.improve.only_bad = !command.decimate;
-  options.improve.keep_distances = command.max_deviation_mm == 0;
-  return options.improve;
-}
-
-void improve(const ImproveCommand& command, Subject& subject, const std::function<void(int)>& on_round) {
-  ImproveOptions options = options_of(command);
-  if (!command.image.empty()) {
-    const double diagonal_mm = subject.image.frame.voxel_diagonal_mm();
-    options.reach_mm =
-        command.max_deviation_mm > 0 ? command.max_deviation_mm : tolerances::kImproveReach * diagonal_mm;
-    options.deviation_diagonals = options.reach_mm / diagonal_mm / kReachPerDeviation;
-    subject.max_deviation_mm = options.reach_mm;
-    subject.improve = improve_mesh(subject.mesh, ImageDomain(subject.image), options, on_round);
-    return;
+  for (std::string& warning : report.warnings) {
+    warning = with_flags(warning);
   }
-  const MeshDomain domain(subject.mesh, subject.image.labels);
-  const double edge_mm = domain.scale_mm();
-  if (!(edge_mm > 0)) {
-    throw InputError("'" + command.mesh +
-                     "': the tets' surface is a single point; give a mesh with a volume");
-  }
-  subject.max_deviation_mm = command.max_deviation_mm > 0 ? command.max_deviation_mm : 0.5 * edge_mm;
-  options.deviation_mm = subject.max_deviation_mm / kReachPerDeviation;
-  options.reach_mm = subject.max_deviation_mm;
-  options.keep_distances = true;
-  options.may_relabel = false;
-  options.correct_volumes = false;
-  subject.improve = improve_mesh(subject.mesh, domain, options, on_round);
-}
-
-void warn(const ImproveCommand& command, Subject& subject) {
-  auto& warnings = subject.warnings;
-  const double goal_deg = options_of(command).min_dihedral_deg;
-  const auto count = [](std::size_t n) { return std::to_string(n); };
-  if (subject.orient.degenerate > 0) {
-    warnings.push_back(count(subject.orient.degenerate) + " tets had a node twice and were left out");
-  }
-  if (subject.after.not_positive > 0) {
-    warnings.push_back(count(subject.after.not_positive) + " of " + count(subject.before.not_positive) +
-                       " flat or inverted tets could not be untangled; they are as they were or nearly so");
-  } else if (subject.after.min_dihedral_deg < goal_deg - 0.005) {
-    warnings.push_back(
-        text_of("the smallest dihedral angle is %.2f degrees, below the goal of %.4g; a larger "
-                "--max-deviation leaves more room",
-                subject.after.min_dihedral_deg, goal_deg));
-  }
-  for (std::size_t m = 1; command.image.empty() && m < subject.image.labels.size(); ++m) {
-    const double change = 100 * (subject.after.volume_mm3[m] / subject.before.volume_mm3[m] - 1);
-    if (std::fabs(change) > 1) {
-      warnings.push_back(
-          text_of("label %.0f changed its volume by %.2f %%; a smaller --max-deviation keeps it",
-                  subject.image.labels[m], change));
-    }
-  }
+  return mesh;
 }
 
 nlohmann::json measures_json(const TetMeasures& m) {
@@ -164,62 +78,56 @@ nlohmann::json measures_json(const TetMeasures& m) {
           {"max_dihedral_deg", m.max_dihedral_deg}};
 }
 
-nlohmann::json report_json(const ImproveCommand& command, const Subject& subject, double total_s) {
-  nlohmann::json stages = nlohmann::json::array();
-  for (const auto& [name, seconds] : subject.improve.part_seconds) {
-    stages.push_back({{"name", name}, {"seconds", seconds}});
-  }
+nlohmann::json volumes_json(const ImproveGivenMeshReport& report) {
   nlohmann::json labels = nlohmann::json::array();
-  for (std::size_t m = 1; m < subject.image.labels.size(); ++m) {
-    labels.push_back({{"label", subject.image.labels[m]},
-                      {"volume_before_mm3", subject.before.volume_mm3[m]},
-                      {"volume_after_mm3", subject.after.volume_mm3[m]}});
+  for (std::size_t m = 1; m < report.labels.size(); ++m) {
+    labels.push_back({{"label", report.labels[m]},
+                      {"volume_before_mm3", report.before.volume_mm3[m]},
+                      {"volume_after_mm3", report.after.volume_mm3[m]}});
+  }
+  return labels;
+}
+
+nlohmann::json report_json(const ImproveCommand& command, const ImproveGivenMeshReport& report) {
+  nlohmann::json stages = nlohmann::json::array();
+  for (const auto& [name, seconds] : report.improve.part_seconds) {
+    stages.push_back({{"name", name}, {"seconds", seconds}});
   }
   return {{"status", "ok"},
           {"reason", ""},
           {"version", CBC3D_VERSION},
           {"options",
-           {{"min_dihedral_deg", options_of(command).min_dihedral_deg},
-            {"max_deviation_mm", subject.max_deviation_mm},
+           {{"min_dihedral_deg", options_of(command).improve.min_dihedral_deg},
+            {"max_deviation_mm", report.max_deviation_mm},
             {"decimation", command.decimate},
             {"image", command.image},
             {"threads", command.common.threads}}},
-          {"before", measures_json(subject.before)},
-          {"after", measures_json(subject.after)},
-          {"labels", labels},
-          {"orientation", {{"degenerate", subject.orient.degenerate}, {"turned", subject.orient.turned}}},
-          {"seconds", {{"improve", total_s}, {"stages", stages}}},
-          {"warnings", subject.warnings},
+          {"before", measures_json(report.before)},
+          {"after", measures_json(report.after)},
+          {"labels", volumes_json(report)},
+          {"orientation", {{"degenerate", report.orient.degenerate}, {"turned", report.orient.turned}}},
+          {"seconds", {{"improve", report.seconds}, {"stages", stages}}},
+          {"warnings", report.warnings},
           {"peak_rss_bytes", process_peak_rss_bytes()}};
 }
 
 void run(ImproveCommand& command) {
   require_writable_mesh_path(command.out, command.writing);
   TerminalProgress progress(command.common.quiet);
-  progress.step("reading " + command.mesh, 0);
-  Subject subject = read(command);
-  const std::size_t materials = subject.image.labels.size();
-  subject.before = measure_tets(subject.mesh, materials);
-  const Stopwatch watch;
-  improve(command, subject, [&](int round) {
-    progress.step("improvement, round " + std::to_string(round + 1), 0.1 + 0.8 * round / (round + 5.0));
-  });
-  const double seconds = watch.seconds();
-  subject.after = measure_tets(subject.mesh, materials);
-  warn(command, subject);
+  ImproveGivenMeshReport report;
+  const Mesh out = improved_mesh(command, progress, report);
   progress.step("writing " + command.out, 0.95);
-  const Mesh out = to_physical_mesh(subject.mesh, subject.image);
   write_mesh(out, command.out, command.writing);
   if (!command.common.report_file.empty()) {
-    write_text_file(command.common.report_file, json_text(report_json(command, subject, seconds)) + "\n");
+    write_text_file(command.common.report_file, json_text(report_json(command, report)) + "\n");
   }
   progress.done();
-  for (const std::string& warning : subject.warnings) {
+  for (const std::string& warning : report.warnings) {
     progress.line("warning: " + warning, true);
   }
   progress.line("wrote " + command.out + ": " + counts_text(out) +
-                text_of(", smallest dihedral angle %.2f degrees (before %.2f)",
-                        subject.after.min_dihedral_deg, subject.before.min_dihedral_deg));
+                text_of(", smallest dihedral angle %.2f degrees (before %.2f)", report.after.min_dihedral_deg,
+                        report.before.min_dihedral_deg));
 }
 
 }  // namespace

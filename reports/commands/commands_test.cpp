@@ -177,6 +177,9 @@ TEST(Commands, EveryCommandHasHelp) {
   for (const char* what : {"meshers", "cases", "suites"}) {
     EXPECT_EQ(bench({"list", what}).exit_code, 0) << what;
   }
+  EXPECT_EQ(bench({"--man"}).exit_code, 0);
+  EXPECT_EQ(bench({"--completion", "zsh"}).exit_code, 0);
+  EXPECT_EQ(bench({"--completion", "csh"}).exit_code, 2);
 }
 
 }  // namespace

@@ -2,10 +2,28 @@
 #include <iostream>
 #include <string_view>
 
+#include "mesher/command_line/program_help.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/one_line.hpp"
 #include "mesher/core/runtime.hpp"
 #include "reports/commands/commands.hpp"
+
+namespace {
+
+cbc3d::ProgramHelp program_help() {
+  return {
+      .name = "cbc3d-bench",
+      .version = CBC3D_VERSION,
+      .summary = "runs meshers on segmented images and judges the meshes",
+      .examples = {{"cbc3d-bench evaluate mesh.vtu labels.nii.gz --json figures.json",
+                    "Judges any mesh against its segmentation."},
+                   {"cbc3d-bench run --case phantom-shells --mesher cbc3d cgal --out out",
+                    "Compares two meshers on one case; tables and pictures are in out/."},
+                   {"cbc3d-bench report out --out report.html", "Makes one page of a run."}},
+      .exit_codes = {"success", "a gate that does not hold", "bad usage or bad input", "a job that failed"}};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   // Not for `run`: the meshers that it starts keep the environment they were given.
@@ -17,6 +35,7 @@ int main(int argc, char** argv) {
       "Runs meshers on segmented images, judges the meshes and writes comparison tables.\n"
       "Exit codes: 0 success, 1 a gate that does not hold, 2 bad usage or input, 3 a job failed."};
   app.require_subcommand(1);
+  add_program_help(app, program_help());
   const std::vector<reports::Command> commands{
       reports::add_list_command(app),   reports::add_run_command(app),   reports::add_evaluate_command(app),
       reports::add_tables_command(app), reports::add_merge_command(app), reports::add_gate_command(app),

@@ -1,4 +1,4 @@
-#include "mesher/app/mesh_findings.hpp"
+#include "mesher/pipeline/mesh_findings.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,0 +1,116 @@
+"""Progress, cancellation, Ctrl-C, threads, warnings, improvement and evaluation; the command's mesh."""
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+import warnings
+
+from testing_support import SPACING, numpy, two_balls, write_nrrd
+
+import cbc3d
+
+
+class Work(unittest.TestCase):
+    def test_it_is_the_command_s_mesh_at_any_number_of_threads(self):
+        with tempfile.TemporaryDirectory() as folder:
+            write_nrrd(folder + "/balls.nrrd", two_balls(), SPACING)
+            subprocess.run([os.environ["CBC3D_COMMAND"], "mesh", folder + "/balls.nrrd", "--out", folder + "/balls.vtu",
+                            "--quiet"], check=True)
+            expected = cbc3d.read(folder + "/balls.vtu")
+        for threads in (1, 2):
+            mesh = cbc3d.mesh(two_balls(), SPACING, threads=threads)
+            numpy.testing.assert_array_equal(mesh.points, expected.points)
+            numpy.testing.assert_array_equal(mesh.tets, expected.tets)
+            numpy.testing.assert_array_equal(mesh.labels, expected.labels)
+
+    def test_progress(self):
+        seen = []
+        cbc3d.mesh(two_balls(), SPACING, progress=lambda stage, fraction: seen.append((stage, fraction)))
+        fractions = [fraction for _, fraction in seen]
+        self.assertGreater(len(seen), 4)
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertTrue(all(0 <= f <= 1 for f in fractions) and all(isinstance(s, str) for s, _ in seen))
+
+    def test_a_callback_ends_the_work(self):
+        with self.assertRaises(cbc3d.Cancelled):
+            cbc3d.mesh(two_balls(), SPACING, progress=lambda stage, fraction: fraction < 0.3)
+
+        def fail(stage, fraction):
+            raise KeyError(stage)
+
+        for work in (lambda: cbc3d.mesh(two_balls(), SPACING, progress=fail),
+                     lambda: cbc3d.evaluate(cbc3d.mesh(two_balls(), SPACING), two_balls(), SPACING, progress=fail)):
+            with self.assertRaises(KeyError):
+                work()
+
+    def test_ctrl_c(self):
+        calls = []
+
+        def interrupt(stage, fraction):
+            calls.append(stage)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            cbc3d.mesh(two_balls(), SPACING, progress=interrupt)
+        self.assertEqual(len(calls), 1)
+        # Without a callback, from another thread, while the interpreter's lock is free.
+        threading.Timer(0.05, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(1000):
+                cbc3d.mesh(two_balls(), SPACING)
+
+    def test_other_threads_run_meanwhile(self):
+        counted, ended = [0], threading.Event()
+
+        def count():
+            while not ended.is_set():
+                counted[0] += 1
+
+        counter = threading.Thread(target=count)
+        counter.start()
+        before = []
+        cbc3d.mesh(two_balls(), SPACING, progress=lambda stage, fraction: before.append(counted[0]))
+        ended.set()
+        counter.join()
+        self.assertGreater(before[-1], before[0])
+
+    def test_warnings_are_given(self):
+        array = two_balls()
+        array[2, 2, 2] = 5  # one voxel, which the preset "paper" drops
+        with self.assertWarns(cbc3d.MeshWarning):
+            mesh = cbc3d.mesh(array, SPACING, preset="paper")
+        self.assertTrue(mesh.warnings)
+
+    def test_jobs_that_fail(self):
+        array = numpy.zeros((20, 20, 20), "uint8")
+        array[10, 10, 10] = 1
+        with warnings.catch_warnings(), self.assertRaises(cbc3d.JobError):
+            warnings.simplefilter("ignore")
+            cbc3d.mesh(array, preset="paper", lattice_spacing=20, finest_spacing=20)
+
+    def test_improve(self):
+        rough = cbc3d.mesh(two_balls(), SPACING, preset="paper")
+        for arguments in ((), (two_balls(), SPACING)):
+            better = cbc3d.improve(rough, *arguments, min_dihedral=15)
+            self.assertEqual(set(better.labels.tolist()), {3, 8})
+            quality = cbc3d.evaluate(better, two_balls(), SPACING)["quality"]
+            self.assertGreaterEqual(quality["min_dihedral_deg"], 14.99)
+        thin = cbc3d.improve(rough, two_balls(), SPACING, decimate=True)
+        self.assertLess(len(thin.tets), len(rough.tets))
+        with self.assertRaises(cbc3d.InputError):
+            cbc3d.improve(rough, two_balls(), SPACING, origin=(1000, 0, 0))
+        with self.assertRaises(cbc3d.InputError):
+            cbc3d.improve(rough, max_deviation=-1)
+
+    def test_evaluate(self):
+        found = cbc3d.evaluate(cbc3d.mesh(two_balls(), SPACING), two_balls(), SPACING)
+        self.assertGreaterEqual(found["quality"]["min_dihedral_deg"], 19.99)
+        self.assertLess(found["fidelity"]["hausdorff_mm"], 2.5)
+        self.assertEqual(found["fidelity"]["missing_labels"], [])
+        self.assertTrue(found["topology"]["conforming"])
+
+
+if __name__ == "__main__":
+    unittest.main(warnings="ignore")
