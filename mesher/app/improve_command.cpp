@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "mesher/app/image_input.hpp"
+#include "mesher/app/coordinates_option.hpp"
+#include "mesher/app/flag_names.hpp"
 #include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
@@ -14,12 +15,16 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
+#include "mesher/core/mesh_coordinates.hpp"
 #include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/domain/image_domain.hpp"
 #include "mesher/domain/mesh_domain.hpp"
 #include "mesher/improve/improve_mesh.hpp"
+#include "mesher/input/image_input.hpp"
+#include "mesher/input/named_text.hpp"
+#include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/topology/labelled_tets.hpp"
 #include "mesher/topology/orient_tets.hpp"
@@ -70,14 +75,21 @@ void require_placement(const Mesh& mesh, Subject& subject) {
   }
 }
 
+/// Null where no image was given.
+const ImageFrame* frame_of(const ImproveCommand& command, const Subject& subject) {
+  return command.image.empty() ? nullptr : &subject.image.frame;
+}
+
 Subject read(ImproveCommand& command) {
   Subject subject;
-  Mesh mesh = read_mesh(command.mesh, command.reading);
-  require_writable_labels(labels_of(mesh), command.out);
   if (!command.image.empty()) {
     subject.image = read_input_image(command.image, command.input);
     subject.warnings = command.input.warnings;
   }
+  MeshFileOptions stated;
+  Mesh mesh = read_mesh(command.mesh, command.reading, frame_of(command, subject), stated);
+  require_writable_labels(labels_of(mesh), command.out);
+  command.input.names.add_unknown(stated.names);
   try {
     require_improvable(mesh);
     if (command.image.empty()) {
@@ -175,26 +187,34 @@ nlohmann::json report_json(const ImproveCommand& command, const Subject& subject
                       {"volume_before_mm3", subject.before.volume_mm3[m]},
                       {"volume_after_mm3", subject.after.volume_mm3[m]}});
   }
-  return {{"status", "ok"},
-          {"reason", ""},
-          {"version", CBC3D_VERSION},
-          {"options",
-           {{"min_dihedral_deg", options_of(command).min_dihedral_deg},
-            {"max_deviation_mm", subject.max_deviation_mm},
-            {"decimation", command.decimate},
-            {"image", command.image},
-            {"threads", command.common.threads}}},
-          {"before", measures_json(subject.before)},
-          {"after", measures_json(subject.after)},
-          {"labels", labels},
-          {"orientation", {{"degenerate", subject.orient.degenerate}, {"turned", subject.orient.turned}}},
-          {"seconds", {{"improve", total_s}, {"stages", stages}}},
-          {"warnings", subject.warnings},
-          {"peak_rss_bytes", process_peak_rss_bytes()}};
+  nlohmann::json json = {
+      {"status", "ok"},
+      {"reason", ""},
+      {"version", CBC3D_VERSION},
+      {"label_names", names_json(command.input.names)},
+      {"coordinates", command.writing.coordinates},
+      {"options",
+       {{"min_dihedral_deg", options_of(command).min_dihedral_deg},
+        {"max_deviation_mm", subject.max_deviation_mm},
+        {"decimation", command.decimate},
+        {"image", command.image},
+        {"threads", command.common.threads}}},
+      {"before", measures_json(subject.before)},
+      {"after", measures_json(subject.after)},
+      {"labels", labels},
+      {"orientation", {{"degenerate", subject.orient.degenerate}, {"turned", subject.orient.turned}}},
+      {"seconds", {{"improve", total_s}, {"stages", stages}}},
+      {"warnings", subject.warnings},
+      {"peak_rss_bytes", process_peak_rss_bytes()}};
+  add_names(json, command.input.names);
+  return json;
 }
 
 void run(ImproveCommand& command) {
   require_writable_mesh_path(command.out, command.writing);
+  if (command.image.empty() && command.writing.coordinates == "voxel") {
+    throw InputError("--coordinates voxel needs the image that the indices are of; name it after the mesh");
+  }
   TerminalProgress progress(command.common.quiet);
   progress.step("reading " + command.mesh, 0);
   Subject subject = read(command);
@@ -207,8 +227,13 @@ void run(ImproveCommand& command) {
   const double seconds = watch.seconds();
   subject.after = measure_tets(subject.mesh, materials);
   warn(command, subject);
+  for (std::string& warning : subject.warnings) {
+    warning = with_names(with_flags(warning), command.input.names);
+  }
   progress.step("writing " + command.out, 0.95);
-  const Mesh out = to_physical_mesh(subject.mesh, subject.image);
+  Mesh out = to_physical_mesh(subject.mesh, subject.image);
+  command.writing.names = command.input.names;
+  from_lps(out, command.writing.coordinates, frame_of(command, subject));
   write_mesh(out, command.out, command.writing);
   if (!command.common.report_file.empty()) {
     write_text_file(command.common.report_file, json_text(report_json(command, subject, seconds)) + "\n");
@@ -233,7 +258,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
   improve->add_option("mesh", command->mesh, read_mesh_text("mesh of labelled tets"))->required();
   improve->add_option("image", command->image,
                       "label image that the mesh was made from; without it the mesh keeps its own surfaces");
-  improve->add_option("--out", command->out, written_mesh_text())->required();
+  improve->add_option("-o,--out", command->out, written_mesh_text())->required();
   add_option_flag(*improve, find_option("min-dihedral"), {{"", command->defaults}}, command->settings);
   improve
       ->add_option("--max-deviation", command->max_deviation_mm,
@@ -248,6 +273,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
       "--decimate,!--no-decimation", command->decimate,
       "fit the surfaces to the boundary and thin the mesh out as well; without it what is below the goal is "
       "repaired and all else is left as it is");
+  add_coordinates_option(*improve, command->writing.coordinates);
   add_mesh_file_options(*improve, command->writing);
   add_label_array_option(*improve, command->reading);
   add_image_options(*improve, command->input);
