@@ -36,8 +36,8 @@ function(cbc3d_program folder name)
   set(rooms ${ARG_ROOMS})
   list(TRANSFORM rooms PREPEND cbc3d_)
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
-  # Programs of interfaces/ are installed where the programs that use them look.
-  if(NOT folder MATCHES ":tests$|^interfaces/")
+  # Programs of reports/interfaces/ are installed where the programs that use them look.
+  if(NOT folder MATCHES ":tests$|^reports/interfaces/")
     set_property(GLOBAL APPEND PROPERTY CBC3D_INSTALLED_PROGRAMS ${name})
   endif()
   target_link_libraries(${name} PRIVATE cbc3d_flags ${rooms} ${ARG_LIBRARIES})

@@ -37,7 +37,7 @@ if(CBC3D_PROGRAMS)
 endif()
 
 file(GLOB_RECURSE documents RELATIVE ${PROJECT_SOURCE_DIR}
-  mesher/*.md metrics/*.md interfaces/*.md baselines/*.md cases/*.md reports/*.md reports/gallery/*.jpg)
+  mesher/*.md metrics/*.md baselines/*.md cases/*.md reports/*.md reports/gallery/*.jpg)
 foreach(document README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE ${documents})
   cmake_path(GET document PARENT_PATH folder)
   install(FILES ${document} DESTINATION ${doc_dir}/${folder})

@@ -1,7 +1,10 @@
 // The command `cbc3d`.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <new>
+#include <string>
+#include <string_view>
 
 #include "mesher/app/clean_command.hpp"
 #include "mesher/app/deform_command.hpp"
@@ -34,6 +37,32 @@ cbc3d::ProgramHelp program_help() {
       .exit_codes = {"success", "not used", "bad usage or bad input", "a job that failed"}};
 }
 
+/// A name in a shell's single quotes where it has blanks or the like.
+std::string shell_word(const std::string& name) {
+  const std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
+  return name.find_first_not_of(plain) == std::string::npos ? name : "'" + name + "'";
+}
+
+/// What was meant by a file in the place of a subcommand; empty where there is none.
+std::string suggestion(int argc, char** argv) {
+  if (argc < 2) {
+    return "";
+  }
+  const std::filesystem::path file(argv[1]);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    return "";
+  }
+  std::filesystem::path stem = file.filename();
+  for (const char* extension : {".gz", ".bz2"}) {
+    stem = stem.extension() == extension ? stem.stem() : stem;
+  }
+  stem = stem.stem();
+  stem = stem.extension() == ".seg" ? stem.stem() : stem;
+  return "'" + file.string() + "' is a file, not a subcommand; to mesh it: cbc3d mesh " +
+         shell_word(file.string()) + " --out " + shell_word(stem.string() + ".vtu");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -63,6 +92,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success&) {
     return cbc3d::kExitSuccess;
   } catch (const CLI::ParseError& error) {
+    if (const std::string meant = suggestion(argc, argv); !meant.empty()) {
+      std::cerr << "cbc3d: " << cbc3d::one_line(meant) << '\n';
+      return cbc3d::kExitBadInput;
+    }
     std::cerr << "cbc3d: " << cbc3d::one_line(error.what()) << " (see --help)\n";
     return cbc3d::kExitBadInput;
   } catch (const cbc3d::OptionError& error) {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "mesher/app/image_input.hpp"
+#include "mesher/app/flag_names.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/subcommand.hpp"
@@ -11,6 +11,8 @@
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/json_text.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/input/image_input.hpp"
+#include "mesher/input/names_json.hpp"
 #include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
@@ -38,16 +40,18 @@ void run(CleanCommand& command) {
   write_label_image(image, command.out);
   nlohmann::json json = cleaning_json(report, image.frame);
   json["warnings"] = command.input.warnings;
+  json["label_names"] = names_json(command.input.names);
+  add_names(json, command.input.names);
   if (!command.common.report_file.empty()) {
     write_text_file(command.common.report_file, json_text(json) + "\n");
   }
   progress.done();
   for (const std::string& warning : command.input.warnings) {
-    progress.line("warning: " + warning, true);
+    progress.line("warning: " + with_flags(warning), true);
   }
   for (const LabelChange& change : report.labels) {
     if (change.voxels_before != change.voxels_after) {
-      progress.line("label " + std::to_string(change.label) + ": " + std::to_string(change.voxels_before) +
+      progress.line(command.input.names.text(change.label) + ": " + std::to_string(change.voxels_before) +
                         " -> " + std::to_string(change.voxels_after) + " voxels",
                     change.voxels_after == 0);
     }
@@ -63,7 +67,7 @@ void add_clean_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<CleanCommand>();
   CLI::App* clean = app.add_subcommand("clean", "the image pre-processing alone");
   clean->add_option("image", command->image, kImageFormats)->required();
-  clean->add_option("--out", command->out, "label image: .nii, .nii.gz, .nrrd or .mha")->required();
+  clean->add_option("-o,--out", command->out, "label image: .nii, .nii.gz, .nrrd or .mha")->required();
   clean
       ->add_option("--preset", command->preset,
                    "whose pre-processing: quality or paper [" + command->preset + "]")

@@ -3,7 +3,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "mesher/app/image_input.hpp"
+#include "mesher/app/coordinates_option.hpp"
+#include "mesher/app/flag_names.hpp"
 #include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
@@ -12,9 +13,13 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
+#include "mesher/core/mesh_coordinates.hpp"
 #include "mesher/core/mesh_placement.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/input/image_input.hpp"
+#include "mesher/input/named_text.hpp"
+#include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/presets.hpp"
 
@@ -43,22 +48,27 @@ MeshImageOptions options_of(const DeformCommand& command, const LabelImage& imag
 
 void write_report(const DeformCommand& command, const MeshImageOptions& options, const MixReport& mix,
                   const DeformReport& deform, const Mesh& mesh) {
-  const nlohmann::json json = {{"status", "ok"},
-                               {"reason", ""},
-                               {"version", CBC3D_VERSION},
-                               {"options", options_json(options, deformation_preset_options(command.preset),
-                                                        {OptionGroup::mixed, OptionGroup::deformation})},
-                               {"counts", counts_json(mesh)},
-                               {"mixed_elements", options.mixed ? mix_json(mix) : nlohmann::json()},
-                               {"deformation", deformation_json(deform)},
-                               {"warnings", command.input.warnings},
-                               {"peak_rss_bytes", process_peak_rss_bytes()}};
+  nlohmann::json json = {{"status", "ok"},
+                         {"reason", ""},
+                         {"version", CBC3D_VERSION},
+                         {"label_names", names_json(command.input.names)},
+                         {"coordinates", command.writing.coordinates},
+                         {"options", options_json(options, deformation_preset_options(command.preset),
+                                                  {OptionGroup::mixed, OptionGroup::deformation})},
+                         {"counts", counts_json(mesh)},
+                         {"mixed_elements", options.mixed ? mix_json(mix) : nlohmann::json()},
+                         {"deformation", deformation_json(deform)},
+                         {"warnings", command.input.warnings},
+                         {"peak_rss_bytes", process_peak_rss_bytes()}};
+  add_names(json, command.input.names);
   write_text_file(command.common.report_file, json_text(json) + "\n");
 }
 
 /// The mesh in the image's frame. Throws InputError where they do not lie together.
 MaterialMesh read_material_mesh(DeformCommand& command, const LabelImage& image) {
-  const Mesh mesh = read_mesh(command.mesh, command.reading);
+  MeshFileOptions stated;
+  const Mesh mesh = read_mesh(command.mesh, command.reading, &image.frame, stated);
+  command.input.names.add_unknown(stated.names);
   require_writable_labels(labels_of(mesh), command.out);
   try {
     MaterialMesh local = to_material_mesh(mesh, image);  // labels that the image lacks are named first
@@ -92,14 +102,16 @@ void run(DeformCommand& command) {
                   0.2 + 0.7 * i / std::max(1, options.deform.iterations));
   });
   progress.step("writing " + command.out, 0.95);
-  const Mesh out = to_physical_mesh(mesh, image);
+  Mesh out = to_physical_mesh(mesh, image);
+  command.writing.names = command.input.names;
+  from_lps(out, command.writing.coordinates, &image.frame);
   write_mesh(out, command.out, command.writing);
   if (!command.common.report_file.empty()) {
     write_report(command, options, mix, deform, out);
   }
   progress.done();
   for (const std::string& warning : command.input.warnings) {
-    progress.line("warning: " + warning, true);
+    progress.line("warning: " + with_names(with_flags(warning), command.input.names), true);
   }
   if (deform.stopped_early) {
     progress.line("warning: the deformation stopped after " + std::to_string(deform.iterations.size()) +
@@ -118,7 +130,7 @@ void add_deform_command(CLI::App& app, int& exit_code) {
                                         "--mixed --iterations 0 the mixed elements alone");
   deform->add_option("mesh", command->mesh, read_mesh_text("mesh of tets, pyramids, hexes"))->required();
   deform->add_option("image", command->image, "label image that the mesh was made from")->required();
-  deform->add_option("--out", command->out, written_mesh_text())->required();
+  deform->add_option("-o,--out", command->out, written_mesh_text())->required();
   deform
       ->add_option("--preset", command->preset,
                    "quality: our best; paper: the published method [" + command->preset + "]")
@@ -126,6 +138,7 @@ void add_deform_command(CLI::App& app, int& exit_code) {
   for (const OptionGroup group : {OptionGroup::mixed, OptionGroup::deformation}) {
     add_option_flags(*deform, group, deformation_columns(), command->settings);
   }
+  add_coordinates_option(*deform, command->writing.coordinates);
   add_mesh_file_options(*deform, command->writing);
   add_label_array_option(*deform, command->reading);
   add_image_options(*deform, command->input);

@@ -22,7 +22,9 @@ const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifol
                                            {"round_values", "--round"},
                                            {"many_labels", "--many-labels"},
                                            {"long_work", "--long-work"},
-                                           {"label_array", "--label-array"}};
+                                           {"label_array", "--label-array"},
+                                           {"volume=N", "--volume N"},
+                                           {"layer=N", "--layer N"}};
 
 /// The fields of the options: their names with underscores, with a unit or without. Names of one word are
 /// left alone, for they are ordinary words too.

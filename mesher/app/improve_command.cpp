@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "mesher/app/coordinates_option.hpp"
 #include "mesher/app/flag_names.hpp"
-#include "mesher/app/image_input.hpp"
 #include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
@@ -15,8 +15,12 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
+#include "mesher/core/mesh_coordinates.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/input/image_input.hpp"
+#include "mesher/input/named_text.hpp"
+#include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/improve_given_mesh.hpp"
 
@@ -48,26 +52,37 @@ ImproveGivenMeshOptions options_of(const ImproveCommand& command) {
       .improve = options.improve, .max_deviation_mm = command.max_deviation_mm, .decimate = command.decimate};
 }
 
-/// Reads, improves and adds what was found while reading to the report's warnings.
-Mesh improved_mesh(ImproveCommand& command, const Progress& progress, ImproveGivenMeshReport& report) {
-  progress.step("reading " + command.mesh, 0);
-  Mesh mesh = read_mesh(command.mesh, command.reading);
-  require_writable_labels(labels_of(mesh), command.out);
+/// What the improvement gives, and the image that it was given.
+struct Improved {
+  Mesh mesh;
   std::optional<LabelImage> image;
+
+  /// Null where no image was given.
+  [[nodiscard]] const ImageFrame* frame() const { return image ? &image->frame : nullptr; }
+};
+
+/// Reads, improves and adds what was found while reading to the report's warnings.
+Improved improved_mesh(ImproveCommand& command, const Progress& progress, ImproveGivenMeshReport& report) {
+  progress.step("reading " + command.mesh, 0);
+  Improved result;
   if (!command.image.empty()) {
-    image = read_input_image(command.image, command.input);
+    result.image = read_input_image(command.image, command.input);
     report.warnings = command.input.warnings;
   }
+  MeshFileOptions stated;
+  Mesh mesh = read_mesh(command.mesh, command.reading, result.frame(), stated);
+  require_writable_labels(labels_of(mesh), command.out);
+  command.input.names.add_unknown(stated.names);
   try {
-    mesh =
-        improve_given_mesh(std::move(mesh), image ? &*image : nullptr, options_of(command), progress, report);
+    result.mesh = improve_given_mesh(std::move(mesh), result.image ? &*result.image : nullptr,
+                                     options_of(command), progress, report);
   } catch (const InputError& error) {
     throw InputError("'" + command.mesh + "': " + error.what());
   }
   for (std::string& warning : report.warnings) {
-    warning = with_flags(warning);
+    warning = with_names(with_flags(warning), command.input.names);
   }
-  return mesh;
+  return result;
 }
 
 nlohmann::json measures_json(const TetMeasures& m) {
@@ -93,30 +108,41 @@ nlohmann::json report_json(const ImproveCommand& command, const ImproveGivenMesh
   for (const auto& [name, seconds] : report.improve.part_seconds) {
     stages.push_back({{"name", name}, {"seconds", seconds}});
   }
-  return {{"status", "ok"},
-          {"reason", ""},
-          {"version", CBC3D_VERSION},
-          {"options",
-           {{"min_dihedral_deg", options_of(command).improve.min_dihedral_deg},
-            {"max_deviation_mm", report.max_deviation_mm},
-            {"decimation", command.decimate},
-            {"image", command.image},
-            {"threads", command.common.threads}}},
-          {"before", measures_json(report.before)},
-          {"after", measures_json(report.after)},
-          {"labels", volumes_json(report)},
-          {"orientation", {{"degenerate", report.orient.degenerate}, {"turned", report.orient.turned}}},
-          {"seconds", {{"improve", report.seconds}, {"stages", stages}}},
-          {"warnings", report.warnings},
-          {"peak_rss_bytes", process_peak_rss_bytes()}};
+  nlohmann::json json = {
+      {"status", "ok"},
+      {"reason", ""},
+      {"version", CBC3D_VERSION},
+      {"label_names", names_json(command.input.names)},
+      {"coordinates", command.writing.coordinates},
+      {"options",
+       {{"min_dihedral_deg", options_of(command).improve.min_dihedral_deg},
+        {"max_deviation_mm", report.max_deviation_mm},
+        {"decimation", command.decimate},
+        {"image", command.image},
+        {"threads", command.common.threads}}},
+      {"before", measures_json(report.before)},
+      {"after", measures_json(report.after)},
+      {"labels", volumes_json(report)},
+      {"orientation", {{"degenerate", report.orient.degenerate}, {"turned", report.orient.turned}}},
+      {"seconds", {{"improve", report.seconds}, {"stages", stages}}},
+      {"warnings", report.warnings},
+      {"peak_rss_bytes", process_peak_rss_bytes()}};
+  add_names(json, command.input.names);
+  return json;
 }
 
 void run(ImproveCommand& command) {
   require_writable_mesh_path(command.out, command.writing);
+  if (command.image.empty() && command.writing.coordinates == "voxel") {
+    throw InputError("--coordinates voxel needs the image that the indices are of; name it after the mesh");
+  }
   TerminalProgress progress(command.common.quiet);
   ImproveGivenMeshReport report;
-  const Mesh out = improved_mesh(command, progress, report);
+  Improved improved = improved_mesh(command, progress, report);
+  Mesh& out = improved.mesh;
   progress.step("writing " + command.out, 0.95);
+  command.writing.names = command.input.names;
+  from_lps(out, command.writing.coordinates, improved.frame());
   write_mesh(out, command.out, command.writing);
   if (!command.common.report_file.empty()) {
     write_text_file(command.common.report_file, json_text(report_json(command, report)) + "\n");
@@ -141,7 +167,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
   improve->add_option("mesh", command->mesh, read_mesh_text("mesh of labelled tets"))->required();
   improve->add_option("image", command->image,
                       "label image that the mesh was made from; without it the mesh keeps its own surfaces");
-  improve->add_option("--out", command->out, written_mesh_text())->required();
+  improve->add_option("-o,--out", command->out, written_mesh_text())->required();
   add_option_flag(*improve, find_option("min-dihedral"), {{"", command->defaults}}, command->settings);
   improve
       ->add_option("--max-deviation", command->max_deviation_mm,
@@ -156,6 +182,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
       "--decimate,!--no-decimation", command->decimate,
       "fit the surfaces to the boundary and thin the mesh out as well; without it what is below the goal is "
       "repaired and all else is left as it is");
+  add_coordinates_option(*improve, command->writing.coordinates);
   add_mesh_file_options(*improve, command->writing);
   add_label_array_option(*improve, command->reading);
   add_image_options(*improve, command->input);

@@ -5,10 +5,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "mesher/app/image_input.hpp"
+#include "mesher/app/flag_names.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/core/json_text.hpp"
 #include "mesher/core/read_image.hpp"
+#include "mesher/input/image_input.hpp"
+#include "mesher/input/names_json.hpp"
 #include "mesher/preprocess/grey_check.hpp"
 
 namespace cbc3d {
@@ -34,7 +36,12 @@ nlohmann::json info_json(const InfoCommand& command, const LabelImage& image) {
     labels.push_back({{"label", image.labels[m]},
                       {"voxels", voxels[m]},
                       {"volume_mm3", static_cast<double>(voxels[m]) * voxel_mm3}});
+    const NamedLabel* const named = command.input.names.find(image.labels[m]);
+    if (named != nullptr && named->colour) {
+      labels.back()["colour"] = *named->colour;
+    }
   }
+  add_names(labels, command.input.names);
   return {{"format", format_of_image(command.image)},
           {"size", frame.size},
           {"spacing_mm", triple(frame.spacing_mm)},
@@ -52,11 +59,12 @@ void print(const nlohmann::json& info) {
             << " voxels\nspacing  " << info["spacing_mm"] << " mm\norigin   " << info["origin_mm"]
             << " mm, LPS\naxes     " << info["axes"] << ", LPS\nlabels   " << info["labels"].size() << '\n';
   for (const auto& label : info["labels"]) {
-    std::cout << "  " << label["label"] << ": " << label["voxels"] << " voxels, " << label["volume_mm3"]
-              << " mm3\n";
+    std::cout << "  " << label["label"]
+              << (label.contains("name") ? " " + label["name"].get<std::string>() : "") << ": "
+              << label["voxels"] << " voxels, " << label["volume_mm3"] << " mm3\n";
   }
   for (const auto& warning : info["warnings"]) {
-    std::cout << "warning: " << warning.get<std::string>() << '\n';
+    std::cout << "warning: " << with_flags(warning.get<std::string>()) << '\n';
   }
   if (const auto grey = info["looks_grey"].get<std::string>(); !grey.empty()) {
     std::cout << "warning: " << grey << '\n';

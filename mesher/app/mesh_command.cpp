@@ -5,8 +5,8 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "mesher/app/coordinates_option.hpp"
 #include "mesher/app/flag_names.hpp"
-#include "mesher/app/image_input.hpp"
 #include "mesher/app/mesh_files.hpp"
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
@@ -16,8 +16,11 @@
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
+#include "mesher/core/mesh_coordinates.hpp"
 #include "mesher/core/read_image.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/input/image_input.hpp"
+#include "mesher/input/named_text.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/mesh_findings.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
@@ -65,6 +68,12 @@ void require_expected_work(const MeshCommand& command, const LabelImage& image) 
   }
 }
 
+void from_lps(QuadraticMesh& mesh, const std::string& coordinates, const ImageFrame& frame) {
+  if (cbc3d::from_lps(mesh.points, coordinates, &frame)) {
+    flip_orientation(mesh);
+  }
+}
+
 /// The mesh of the corners; `quadratic` gets the whole of order 2.
 Mesh mesh_in_order(LabelImage image, const RunDescription& run, const Progress& progress,
                    MeshImageReport& report, QuadraticMesh& quadratic) {
@@ -88,10 +97,12 @@ void run(MeshCommand& command) {
                              .options = options_of(command, image),
                              .order = command.order,
                              .frame = image.frame,
+                             .names = command.input.names,
+                             .coordinates = command.writing.coordinates,
                              .reading_seconds = reading.seconds()};
   MeshImageReport report;
   QuadraticMesh quadratic;
-  const Mesh mesh = mesh_in_order(std::move(image), description, progress, report, quadratic);
+  Mesh mesh = mesh_in_order(std::move(image), description, progress, report, quadratic);
   report.warnings.insert(report.warnings.begin(), command.input.warnings.begin(),
                          command.input.warnings.end());
   for (std::string& finding : mesh_findings(mesh, report, description.frame)) {
@@ -106,9 +117,12 @@ void run(MeshCommand& command) {
   }
   progress.step("writing " + command.out, 0.97);
   const Stopwatch writing;
+  command.writing.names = command.input.names;
   if (command.order == 2) {
+    from_lps(quadratic, command.writing.coordinates, description.frame);
     write_mesh(quadratic, command.out, command.writing);
   } else {
+    cbc3d::from_lps(mesh, command.writing.coordinates, &description.frame);
     write_mesh(mesh, command.out, command.writing);
   }
   description.writing_seconds = writing.seconds();
@@ -117,7 +131,7 @@ void run(MeshCommand& command) {
   }
   progress.done();
   for (const std::string& warning : grouped_warnings(report.warnings)) {
-    progress.line("warning: " + warning, true);
+    progress.line("warning: " + with_names(warning, command.input.names), true);
   }
   progress.line("wrote " + command.out + ": " + counts_text(mesh));
 }
@@ -145,7 +159,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<MeshCommand>();
   CLI::App* mesh = app.add_subcommand("mesh", "mesh a segmented image");
   mesh->add_option("image", command->image, kImageFormats)->required();
-  mesh->add_option("--out", command->out, written_mesh_text())->required();
+  mesh->add_option("-o,--out", command->out, written_mesh_text())->required();
   mesh->add_option("--preset", command->preset,
                    "quality: our best; paper: the published method [" + command->preset + "]")
       ->check(CLI::IsMember(preset_names()));
@@ -157,6 +171,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
                    "1: tets of four nodes; 2: of ten, the edges on boundaries along the smooth ones [1]")
       ->check(CLI::IsMember({1, 2}));
   add_mesh_file_options(*mesh, command->writing);
+  add_coordinates_option(*mesh, command->writing.coordinates);
   add_image_options(*mesh, command->input);
   mesh->add_flag("--long-work", command->long_work,
                  "take a file of less than 16 KB whose boundaries look like minutes of work")

@@ -2,6 +2,8 @@
 
 #include "mesher/app/option_json.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/input/named_text.hpp"
+#include "mesher/input/names_json.hpp"
 #include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
@@ -167,32 +169,41 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
   for (const auto& [name, seconds] : report.stage_seconds) {
     stages[name] = seconds;
   }
-  return {{"status", "ok"},
-          {"reason", ""},
-          {"version", CBC3D_VERSION},
-          {"options", used_options_json(run, report)},
-          {"counts", counts_json(mesh)},
-          {"cleaning", cleaning_json(report.clean, run.frame)},
-          {"refinement",
-           {{"rounds", report.refine.rounds},
-            {"finest_spacing_mm", report.finest_spacing_mm},
-            {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
-          {"topology", run.options.topology.enabled ? topology_json(report.topology, report.difference_places)
-                                                    : nlohmann::json()},
-          {"materials", fidelity_json(report)},
-          {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
-          {"deformation", deformation_json(report.deform)},
-          {"improvement", run.options.improve.enabled ? improvement_json(report.improve) : nlohmann::json()},
-          {"quadratic", run.order == 2 ? curve_json(report.curve) : nlohmann::json()},
-          {"warnings", report.warnings},
-          {"seconds",
-           {{"total", report.seconds},
-            {"cpu", report.cpu_seconds},
-            {"system_cpu", report.system_cpu_seconds},
-            {"reading", run.reading_seconds},
-            {"writing", run.writing_seconds},
-            {"stages", stages}}},
-          {"peak_rss_bytes", process_peak_rss_bytes()}};
+  std::vector<std::string> warnings;
+  for (const std::string& warning : report.warnings) {
+    warnings.push_back(with_names(warning, run.names));
+  }
+  nlohmann::json json = {
+      {"status", "ok"},
+      {"reason", ""},
+      {"version", CBC3D_VERSION},
+      {"label_names", names_json(run.names)},
+      {"coordinates", run.coordinates},
+      {"options", used_options_json(run, report)},
+      {"counts", counts_json(mesh)},
+      {"cleaning", cleaning_json(report.clean, run.frame)},
+      {"refinement",
+       {{"rounds", report.refine.rounds},
+        {"finest_spacing_mm", report.finest_spacing_mm},
+        {"uncovered_boundary_voxels", report.refine.uncovered_voxels}}},
+      {"topology", run.options.topology.enabled ? topology_json(report.topology, report.difference_places)
+                                                : nlohmann::json()},
+      {"materials", fidelity_json(report)},
+      {"mixed_elements", run.options.mixed ? mix_json(report.mix) : nlohmann::json()},
+      {"deformation", deformation_json(report.deform)},
+      {"improvement", run.options.improve.enabled ? improvement_json(report.improve) : nlohmann::json()},
+      {"quadratic", run.order == 2 ? curve_json(report.curve) : nlohmann::json()},
+      {"warnings", warnings},
+      {"seconds",
+       {{"total", report.seconds},
+        {"cpu", report.cpu_seconds},
+        {"system_cpu", report.system_cpu_seconds},
+        {"reading", run.reading_seconds},
+        {"writing", run.writing_seconds},
+        {"stages", stages}}},
+      {"peak_rss_bytes", process_peak_rss_bytes()}};
+  add_names(json, run.names);
+  return json;
 }
 
 }  // namespace cbc3d

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "mesher/core/label_names.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 
 namespace cbc3d {
@@ -14,6 +15,8 @@ struct RunDescription {
   MeshImageOptions options;  ///< the preset's, with the user's settings in place of its own
   int order = 1;             ///< of the tets
   ImageFrame frame;          ///< of the image
+  LabelNames names{};        ///< of its labels
+  std::string coordinates;   ///< of the mesh's points in its file
   double reading_seconds = 0;
   double writing_seconds = 0;
 };
@@ -35,7 +38,7 @@ nlohmann::json counts_json(const Mesh& mesh);
 std::string counts_text(const Mesh& mesh);
 
 /// Options used, counts, per-material F1 and F2, per-iteration deformation figures, seconds per stage, peak
-/// memory and warnings (the contract's keys).
+/// memory, warnings, names of labels and coordinates (the contract's keys).
 nlohmann::json report_json(const RunDescription& run, const MeshImageReport& report, const Mesh& mesh);
 
 }  // namespace cbc3d

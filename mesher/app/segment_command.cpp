@@ -137,7 +137,10 @@ void add_segment_command(CLI::App& app, int& exit_code) {
       ->required();
   segment->add_option("--stop", command->stop, "the front stops at the first or at all targets [first]")
       ->check(CLI::IsMember({"first", "all"}));
-  segment->add_option("--out", command->out, "label image: .nii, .nii.gz, .nrrd or .mha")->required();
+  segment->add_option("-o,--out", command->out, "label image: .nii, .nii.gz, .nrrd or .mha")->required();
+  segment
+      ->add_option("--volume", command->options.volume, "volume of a 4-D image, counted from 0 [a 3-D image]")
+      ->check(CLI::NonNegativeNumber);
   segment->add_option("--label", command->label, "of the structure [1]");
   segment->add_option("--merge", command->merge, "label image that the structure is put into");
   segment->add_flag("--overwrite", command->overwrite,

@@ -4,12 +4,15 @@
 #include <itkPNGImageIO.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <span>
 #include <sstream>
 
+#include "mesher/app/natural_order.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/app/tiff_pages.hpp"
 #include "mesher/core/atomic_file.hpp"
@@ -27,6 +30,8 @@ struct TileCommand {
   std::vector<std::string> slices;
   std::string out;
   std::vector<double> spacing_mm, origin_mm{0, 0, 0};
+  bool natural_order = false;  ///< slices are sorted by the numbers in their names
+  bool luminance = false;      ///< colours become grey
   CommonOptions common;
 };
 
@@ -53,30 +58,46 @@ itk::ImageIOBase::Pointer reader_of(const std::string& file) {
   fail(file, "not a PNG, BMP or TIFF image; convert it to one");
 }
 
-/// Takes a colour slice whose channels are all the same as a grey one, and refuses others.
-void keep_first_channel(Slice& slice, std::size_t channels, const std::string& file) {
+/// The luminance of a pixel by ITU-R BT.601, as most programs take it, in the place of its first channel.
+template <typename T>
+void put_luminance(char* pixel) {
+  T rgb[3];
+  std::memcpy(rgb, pixel, sizeof rgb);
+  const auto grey = static_cast<T>(std::lround(0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2]));
+  std::memcpy(pixel, &grey, sizeof grey);
+}
+
+/// Takes a colour slice whose channels are all the same as a grey one; others are refused, or become their
+/// luminance where that is asked for.
+void keep_one_channel(Slice& slice, std::size_t channels, const std::string& file, bool luminance) {
   const std::size_t count = slice.width * slice.height, bytes = slice.bytes_per_value;
-  const std::size_t colours = std::min<std::size_t>(channels, 3);
+  const bool is_whole = slice.component == Component::UCHAR || slice.component == Component::USHORT;
   for (std::size_t pixel = 0; channels > 1 && pixel < count; ++pixel) {
-    const char* from = slice.values.data() + pixel * channels * bytes;
-    for (std::size_t channel = 1; colours == 3 && channel < colours; ++channel) {
-      if (std::memcmp(from, from + channel * bytes, bytes) != 0) {
-        fail(file, "it is a colour image; convert it to grey values first");
-      }
+    char* const from = slice.values.data() + pixel * channels * bytes;
+    const bool coloured = channels >= 3 && (std::memcmp(from, from + bytes, bytes) != 0 ||
+                                            std::memcmp(from, from + 2 * bytes, bytes) != 0);
+    if (coloured && !(luminance && is_whole)) {
+      fail(file, is_whole
+                     ? "it is a colour image; convert it to grey values first, or take their luminance with "
+                       "--luminance (for grey images, not for labels drawn in colours)"
+                     : "it is a colour image; convert it to grey values first");
+    }
+    if (coloured) {
+      bytes == 1 ? put_luminance<std::uint8_t>(from) : put_luminance<std::uint16_t>(from);
     }
     std::memmove(slice.values.data() + pixel * bytes, from, bytes);
   }
   slice.values.resize(count * bytes);
 }
 
-Slice read_tiff_slice(const std::string& file, std::size_t page) {
+Slice read_tiff_slice(const std::string& file, std::size_t page, bool luminance) {
   constexpr Component kComponents[] = {Component::UCHAR, Component::CHAR, Component::USHORT, Component::SHORT,
                                        Component::UINT,  Component::INT,  Component::FLOAT};
   constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4};
   TiffPage from = read_tiff_page(file, page);
   const auto type = static_cast<std::size_t>(from.value);
   Slice slice{from.width, from.height, kComponents[type], kBytes[type], std::move(from.bytes)};
-  keep_first_channel(slice, from.channels, file);
+  keep_one_channel(slice, from.channels, file, luminance);
   return slice;
 }
 
@@ -125,9 +146,9 @@ void read_and_send(itk::ImageIOBase& io, const std::string& file, const ChildOut
   out.write(std::as_bytes(std::span(values)));
 }
 
-Slice read_slice(const std::string& file, std::size_t page) {
+Slice read_slice(const std::string& file, std::size_t page, bool luminance) {
   if (is_tiff(file)) {
-    return read_tiff_slice(file, page);
+    return read_tiff_slice(file, page, luminance);
   }
   require_no_palette(file);
   const auto io = reader_of(file);
@@ -143,7 +164,7 @@ Slice read_slice(const std::string& file, std::size_t page) {
   slice.height = head.height;
   slice.component = head.component;
   slice.bytes_per_value = head.bytes_per_value;
-  keep_first_channel(slice, head.channels, file);
+  keep_one_channel(slice, head.channels, file, luminance);
   return slice;
 }
 
@@ -242,17 +263,34 @@ std::vector<Page> pages_of(const std::vector<std::string>& files) {
   return pages;
 }
 
+/// The warning that names do not count upwards; empty where they do. A shell sorts s10 before s2.
+std::string order_warning(const std::vector<std::string>& slices) {
+  const auto wrong = std::is_sorted_until(slices.begin(), slices.end(), comes_before);
+  if (wrong == slices.end()) {
+    return "";
+  }
+  return "'" + *wrong + "' comes after '" + *(wrong - 1) +
+         "' in the order given, but before it in the natural order of names (s2 before s10); --natural-order "
+         "sorts "
+         "the slices";
+}
+
 /// Holds one slice in memory at a time.
-void run(const TileCommand& command) {
+void run(TileCommand& command) {
   require_good(command);
   TerminalProgress progress(command.common.quiet);
+  if (command.natural_order) {
+    std::stable_sort(command.slices.begin(), command.slices.end(), comes_before);
+  } else if (const std::string warning = order_warning(command.slices); !warning.empty()) {
+    progress.line("warning: " + warning, true);
+  }
   const std::vector<Page> pages = pages_of(command.slices);
   Slice first;
   AtomicFile file(command.out);
   std::ofstream out(file.temporary(), std::ios::binary);
   for (std::size_t n = 0; n < pages.size() && out; ++n) {
     progress.step("slice " + pages[n].file, static_cast<double>(n) / static_cast<double>(pages.size()));
-    Slice slice = read_slice(pages[n].file, pages[n].number);
+    Slice slice = read_slice(pages[n].file, pages[n].number, command.luminance);
     if (n == 0) {
       out << header(command, slice, pages.size());
       first = slice;
@@ -279,7 +317,7 @@ void add_tile_command(CLI::App& app, int& exit_code) {
   tile->add_option("slices", command->slices,
                    "grey slices of one size: PNG, BMP or TIFF, of one page or several")
       ->required();
-  tile->add_option("--out", command->out, "volume, uncompressed: .nrrd or .mha")->required();
+  tile->add_option("-o,--out", command->out, "volume, uncompressed: .nrrd or .mha")->required();
   tile->add_option("--spacing", command->spacing_mm, "X,Y,Z: distance of pixels and of slices, mm")
       ->required()
       ->delimiter(',')
@@ -287,6 +325,10 @@ void add_tile_command(CLI::App& app, int& exit_code) {
   tile->add_option("--origin", command->origin_mm, "X,Y,Z: centre of the first voxel, LPS mm [0,0,0]")
       ->delimiter(',')
       ->expected(3);
+  tile->add_flag("--natural-order", command->natural_order,
+                 "sort the slices by the numbers in their names, s2 before s10 [the order given]");
+  tile->add_flag("--luminance", command->luminance,
+                 "take the luminance of colour slices [colours are refused]");
   complete_command(*tile, command->common, exit_code, [command] { run(*command); });
 }
 

@@ -5,6 +5,7 @@
 #include <itkTIFFImageIO.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -108,6 +109,27 @@ TEST_F(Tile, GreyInColourIsTakenColourIsNot) {
   const Outcome refused = run("colour.png --out c.nrrd --spacing 1,1,1");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.text.find("colour"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("--luminance"), std::string::npos) << refused.text;
+  ASSERT_EQ(run("colour.png --luminance -o c.nrrd --spacing 1,1,1").exit_code, 0);
+  const LabelImage volume = read_label_image(folder_ / "c.nrrd");
+  const double value = slice<unsigned char>(0)[8];
+  EXPECT_EQ(volume.labels[volume.voxels[8]], std::lround(0.886 * value + 0.114 * 3));
+}
+
+TEST_F(Tile, NamesThatDoNotCountUpwardsAreSaid) {
+  for (const int k : {1, 2, 10}) {
+    write_slice<itk::PNGImageIO>(folder_ / ("s" + std::to_string(k) + ".png"),
+                                 slice<unsigned char>(k == 10 ? 2 : k - 1),
+                                 itk::ImageIOBase::IOComponentType::UCHAR);
+  }
+  const Outcome shell = run("s1.png s10.png s2.png -o shell.nrrd" + kPlace);
+  EXPECT_EQ(shell.exit_code, 0);
+  EXPECT_NE(shell.text.find("'s2.png' comes after 's10.png' in the order given"), std::string::npos)
+      << shell.text;
+  EXPECT_NE(shell.text.find("--natural-order"), std::string::npos);
+  const Outcome sorted = run("s1.png s10.png s2.png --natural-order -o sorted.nrrd" + kPlace);
+  EXPECT_EQ(sorted.text, "");
+  expect_volume("sorted.nrrd");
 }
 
 TEST_F(Tile, OneLineForWhatIsWrongAndNoFile) {

@@ -45,9 +45,50 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// How many bytes follow the first one of a character in UTF-8; none where it is no first byte.
+std::optional<std::size_t> following_bytes(unsigned char first) {
+  if (first < 0x80) return 0;
+  if (first >= 0xC2 && first < 0xE0) return 1;
+  if (first >= 0xE0 && first < 0xF0) return 2;
+  if (first >= 0xF0 && first < 0xF5) return 3;
+  return std::nullopt;
+}
+
+/// Whether the bytes are characters of Unicode, which JSON and VTK ask for.
+bool is_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const auto more = following_bytes(first);
+    if (!more || at + *more >= text.size()) return false;
+    for (std::size_t n = 1; n <= *more; ++n) {
+      const auto byte = static_cast<unsigned char>(text[at + n]);
+      const bool too_low = n == 1 && ((first == 0xE0 && byte < 0xA0) || (first == 0xF0 && byte < 0x90));
+      const bool too_high = n == 1 && ((first == 0xED && byte > 0x9F) || (first == 0xF4 && byte > 0x8F));
+      if ((byte & 0xC0U) != 0x80 || too_low || too_high) return false;
+    }
+    at += *more + 1;
+  }
+  return true;
+}
+
+std::string utf8_of_latin1(std::string_view text) {
+  std::string utf8;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      utf8 += c;
+    } else {
+      utf8 += static_cast<char>(0xC0U | (byte >> 6U));
+      utf8 += static_cast<char>(0x80U | (byte & 0x3FU));
+    }
+  }
+  return utf8;
+}
+
 }  // namespace
 
 void LabelNames::set(NamedLabel named) {
+  if (!is_utf8(named.name)) named.name = utf8_of_latin1(named.name);
   std::ranges::replace_if(named.name, is_control, ' ');
   const auto place = std::ranges::lower_bound(entries_, named.label, {}, &NamedLabel::label);
   if (place != entries_.end() && place->label == named.label) {
@@ -60,6 +101,21 @@ void LabelNames::set(NamedLabel named) {
 const NamedLabel* LabelNames::find(Label label) const {
   const auto place = std::ranges::lower_bound(entries_, label, {}, &NamedLabel::label);
   return place != entries_.end() && place->label == label ? &*place : nullptr;
+}
+
+void LabelNames::add_unknown(const LabelNames& other) {
+  for (const NamedLabel& named : other.entries_) {
+    if (find(named.label) == nullptr) set(named);
+  }
+}
+
+LabelNames LabelNames::of(const std::vector<Label>& labels) const {
+  LabelNames some;
+  for (const Label label : labels) {
+    const NamedLabel* const named = find(label);
+    if (named != nullptr && (!named->name.empty() || named->colour)) some.set(*named);
+  }
+  return some;
 }
 
 std::string LabelNames::text(Label label) const {

@@ -21,8 +21,12 @@ struct NamedLabel {
 /// A table from labels to names; a label that it lacks is known by its number alone.
 class LabelNames {
  public:
-  /// Adds a label, or replaces what is known of it; control characters in the name become spaces.
+  /// Adds a label, or replaces what is known of it; control characters in the name become spaces,
+  /// and a name that is no UTF-8 is taken for Latin-1.
   void set(NamedLabel named);
+
+  /// Adds the entries of labels that this table lacks.
+  void add_unknown(const LabelNames& other);
 
   /// The entry of a label, or null.
   [[nodiscard]] const NamedLabel* find(Label label) const;
@@ -34,6 +38,9 @@ class LabelNames {
   /// "right_lung", or "label_5" ("label_m5" for -5). Two labels of one name, and names without letters or
   /// digits, get their number too.
   [[nodiscard]] std::string identifier(Label label) const;
+
+  /// The entries of these labels alone that have a name or a colour.
+  [[nodiscard]] LabelNames of(const std::vector<Label>& labels) const;
 
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] const std::vector<NamedLabel>& entries() const { return entries_; }  ///< ascending by label

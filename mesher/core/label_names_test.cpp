@@ -33,6 +33,24 @@ TEST(LabelNames, AreReadWithTheirNumber) {
   EXPECT_EQ(lungs().text(7), "label 7");
 }
 
+TEST(LabelNames, OfSomeLabels) {
+  LabelNames names = lungs();
+  names.set({.label = 6, .name = "", .colour = std::nullopt});
+  EXPECT_EQ(names.of({5, 6, 7}).entries().size(), 1U) << "6 has neither name nor colour";
+  LabelNames more;
+  more.set({.label = 5, .name = "other", .colour = std::nullopt});
+  more.set({.label = 9,
+            .name = "H\xFC"
+                    "fte",
+            .colour = std::nullopt});
+  names.add_unknown(more);
+  EXPECT_EQ(names.text(5), "right lung (5)");
+  EXPECT_EQ(names.text(9),
+            "H\xC3\xBC"
+            "fte (9)")
+      << "Latin-1 becomes UTF-8";
+}
+
 TEST(LabelNames, BecomeIdentifiers) {
   LabelNames names = lungs();
   EXPECT_EQ(names.identifier(5), "right_lung");

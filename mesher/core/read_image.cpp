@@ -9,6 +9,7 @@
 
 #include "mesher/core/error.hpp"
 #include "mesher/core/frame_check.hpp"
+#include "mesher/core/image_volumes.hpp"
 #include "mesher/core/label_classifier.hpp"
 #include "mesher/core/mapped_voxels.hpp"
 #include "mesher/core/voxel_bytes.hpp"
@@ -178,6 +179,9 @@ bool is_dicom_file(const fs::path& path) {
 }
 
 FileImage read_dicom(const fs::path& path, const ReadImageOptions& options) {
+  if (options.volume || options.layer) {
+    throw formats::FormatError("a DICOM segmentation has neither volumes nor layers; leave the choice out");
+  }
   formats::DicomSegmentation segmentation = formats::read_dicom_segmentation(path);
   ImageFrame frame = frame_of(segmentation.header);
   require_usable_frame(frame, subject_of(path), options.accept_shear, &segmentation.header.warnings);
@@ -196,7 +200,7 @@ FileImage read_file(const fs::path& path, const ReadImageOptions& options) {
     ImageHeader header = formats::read_image_header(path);
     ImageFrame frame = frame_of(header);
     require_usable_frame(frame, subject_of(path), options.accept_shear, &header.warnings);
-    FileVoxels voxels = voxels_of_file(header);
+    FileVoxels voxels = one_value_per_voxel(header, voxels_of_file(header), options);
     treat_floats(header, voxels, options);
     voxels = scaled(header, std::move(voxels));
     return {std::move(header), frame, std::move(voxels)};
@@ -207,11 +211,43 @@ FileImage read_file(const fs::path& path, const ReadImageOptions& options) {
   }
 }
 
+/// Names that the image has voxels of, and a warning for segments without any.
+void take_notes(const fs::path& path, ImageHeader& header, const LabelImage& image, ImageNotes& notes) {
+  const LabelNames all = names_of_segments(header);
+  notes.names = all.of(image.labels);
+  std::string empty;
+  for (const NamedLabel& named : all.entries()) {
+    if (notes.names.find(named.label) == nullptr) {
+      empty += (empty.empty() ? "" : ", ") + all.text(named.label);
+    }
+  }
+  if (!empty.empty()) {
+    header.warnings.push_back("it names segments without voxels: " + empty);
+  }
+  for (const std::string& warning : header.warnings) {
+    notes.warnings.push_back("'" + path.string() + "': " + warning);
+  }
+}
+
 }  // namespace
 
 LabelImage read_label_image(const fs::path& path, const ReadImageOptions& options,
                             std::vector<std::string>* warnings) {
+  ImageNotes notes;
+  LabelImage image = read_label_image(path, options, notes);
+  if (warnings != nullptr) {
+    warnings->insert(warnings->end(), notes.warnings.begin(), notes.warnings.end());
+  }
+  return image;
+}
+
+LabelImage read_label_image(const fs::path& path, const ReadImageOptions& options, ImageNotes& notes) {
   FileImage file = read_file(path, options);
+  if (const std::string fraction = probability_in(file.header, file.voxels); !fraction.empty()) {
+    fail(path, "it has fractions from 0 to 1 alone (" + fraction +
+                   "), a probability map; threshold it first (FSL: fslmaths IN -thr 0.5 -bin OUT), or of one "
+                   "map for each label take the most likely label");
+  }
   LabelImage image;
   image.frame = file.frame;
   with_type(file.header.component, [&](const auto* type) {
@@ -221,14 +257,12 @@ LabelImage read_label_image(const fs::path& path, const ReadImageOptions& option
   if (image.labels.size() < 2) {
     fail(path, "every voxel is background (0); there is nothing to mesh");
   }
-  for (std::size_t w = 0; warnings != nullptr && w < file.header.warnings.size(); ++w) {
-    warnings->push_back("'" + path.string() + "': " + file.header.warnings[w]);
-  }
+  take_notes(path, file.header, image, notes);
   return image;
 }
 
-GreyImage read_grey_image(const fs::path& path) {
-  const FileImage file = read_file(path, {});
+GreyImage read_grey_image(const fs::path& path, const ReadImageOptions& options) {
+  const FileImage file = read_file(path, options);
   GreyImage image{file.frame, std::vector<float>(file.frame.voxel_count())};
   with_type(file.header.component, [&](const auto* type) {
     const auto* const from = static_cast<decltype(type)>(data_of(file.voxels));

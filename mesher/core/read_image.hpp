@@ -18,7 +18,7 @@ struct GreyImage {
 };
 
 /// Reads a grey image, with the checks of read_label_image. Throws InputError.
-GreyImage read_grey_image(const std::filesystem::path& path);
+GreyImage read_grey_image(const std::filesystem::path& path, const ReadImageOptions& options = {});
 
 /// The name of a file's format, as its users call it. Throws InputError.
 std::string format_of_image(const std::filesystem::path& path);

@@ -15,7 +15,8 @@ namespace tag {
 constexpr std::uint32_t kClass = 0x00080016, kModality = 0x00080060;
 constexpr std::uint32_t kFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011;
 constexpr std::uint32_t kBits = 0x00280100, kPixels = 0x7FE00010;
-constexpr std::uint32_t kType = 0x00620001, kSegments = 0x00620002, kSegmentNumber = 0x00620004;
+constexpr std::uint32_t kType = 0x00620001, kSegments = 0x00620002, kSegmentNumber = 0x00620004,
+                        kSegmentLabel = 0x00620005;
 constexpr std::uint32_t kShared = 0x52009229, kPerFrame = 0x52009230;
 constexpr std::uint32_t kPositions = 0x00209113, kPosition = 0x00200032;
 constexpr std::uint32_t kOrientations = 0x00209116, kOrientation = 0x00200037;
@@ -146,6 +147,15 @@ std::set<int> segment_numbers(const DicomDataSet& file) {
     numbers.insert(segment.number(tag::kSegmentNumber, 0));
   }
   return numbers;
+}
+
+std::vector<Segment> named_segments(const DicomDataSet& file) {
+  std::vector<Segment> segments;
+  for (const DicomDataSet& segment : file.items(tag::kSegments)) {
+    segments.push_back(
+        {.name = segment.text(tag::kSegmentLabel), .value = segment.number(tag::kSegmentNumber, 0)});
+  }
+  return segments;
 }
 
 Frame frame_of(const FrameGroups& groups, const std::set<int>& segments) {
@@ -299,6 +309,7 @@ DicomSegmentation read_dicom_segmentation(const std::filesystem::path& path) {
   ImageHeader& header = result.header;
   header.format = "DICOM SEG";
   header.component = Component::uint16;
+  header.segments = named_segments(file);
   Plane plane;
   std::vector<Frame> frames = frames_of(file, plane);
   header.size[0] = size_of("Columns", file.number(tag::kColumns, 0));

@@ -24,10 +24,11 @@ std::size_t bytes_of(Component component) {
 
 std::size_t voxel_bytes(const ImageHeader& header) {
   std::size_t bytes = bytes_of(header.component);
-  for (const std::size_t size : header.size) {
+  for (const std::size_t size : {header.size[0], header.size[1], header.size[2], header.volumes}) {
     if (size == 0 || bytes > kMostBytes / size) {
       throw FormatError("its sizes " + std::to_string(header.size[0]) + " " + std::to_string(header.size[1]) +
                         " " + std::to_string(header.size[2]) +
+                        (header.volumes > 1 ? " " + std::to_string(header.volumes) : std::string()) +
                         " are more voxels than can be counted; repair its header");
     }
     bytes *= size;

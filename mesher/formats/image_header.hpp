@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,11 +37,23 @@ struct DataFile {
   bool may_continue = false;        ///< other data may follow the voxels
 };
 
-/// A 3-D image with one value for each voxel. All figures are finite, sizes positive, and the product of
-/// sizes and component fits std::size_t.
+/// A structure that a segmentation file names.
+struct Segment {
+  std::string name;                                   ///< as the file has it; may be empty
+  std::int64_t value = 1;                             ///< of its voxels
+  std::size_t layer = 0;                              ///< in which they have it
+  std::optional<std::array<std::uint8_t, 3>> colour;  ///< red, green, blue
+};
+
+/// A 3-D image with one value for each voxel, or several of one frame. All figures are finite, sizes
+/// positive, and the product of sizes, volumes and component fits std::size_t.
 struct ImageHeader {
   std::string format;                        ///< as its users call it: "NIfTI-1"
   std::array<std::size_t, 3> size{0, 0, 0};  ///< along the storage axes
+  std::size_t volumes = 1;  ///< values per voxel: of a 4-D image, or of the layers of a segmentation
+  bool volumes_interleaved =
+      false;                      ///< the values of a voxel lie side by side; otherwise volume follows volume
+  std::vector<Segment> segments;  ///< in the file's order; none where it names none
   Component component = Component::uint8;
   bool big_endian = false;
   Encoding encoding = Encoding::raw;
@@ -59,7 +72,8 @@ inline bool is_floating(Component component) {
   return component == Component::float32 || component == Component::float64;
 }
 
-/// Bytes of all voxels. Throws FormatError where they are more than std::size_t or 2^62 can count.
+/// Bytes of all voxels of all volumes. Throws FormatError where they are more than std::size_t or 2^62 can
+/// count.
 std::size_t voxel_bytes(const ImageHeader& header);
 
 /// Checks what every format promises: sizes from 1 to 2^31 - 1, a product that can be counted, finite

@@ -101,6 +101,8 @@ void take_size(const Header& header, std::size_t dimensions, ImageHeader& image)
     const std::size_t size = size_of("DimSize", sizes[axis]);
     if (axis < 3) {
       image.size[axis] = size;
+    } else if (axis == 3) {
+      image.volumes = size;
     } else if (size > 1) {
       throw FormatError("it is " + std::to_string(dimensions) + "-dimensional with " + std::to_string(size) +
                         " volumes; give one 3-D volume of it");

@@ -72,8 +72,7 @@ ImageHeader read_mgh_header(std::string_view head, const std::filesystem::path& 
     image.size[axis] = size_of("dimension", at.get<std::int32_t>(4 + 4 * axis));
   }
   if (const auto frames = at.get<std::int32_t>(16); frames > 1) {
-    throw FormatError("it is 4-dimensional with " + std::to_string(frames) +
-                      " volumes; give one 3-D volume of it");
+    image.volumes = size_of("nframes", frames);
   }
   image.component = component_of(at.get<std::int32_t>(20));
   take_frame(at, image);

@@ -123,7 +123,8 @@ void take_size(const Fields& f, ImageHeader& header) {
     throw FormatError("it has " + std::to_string(f.dim[5]) +
                       " components per voxel (a vector image); give a label image with one value per voxel");
   }
-  for (std::size_t i = 4; i <= rank; ++i) {
+  header.volumes = rank >= 4 && f.dim[4] > 1 ? size_of("dim[4]", f.dim[4]) : 1;
+  for (std::size_t i = 5; i <= rank; ++i) {
     if (f.dim[i] > 1) {
       throw FormatError("it is " + std::to_string(rank) + "-dimensional with " + std::to_string(f.dim[i]) +
                         " volumes; give one 3-D volume of it");

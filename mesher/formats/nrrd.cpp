@@ -6,6 +6,7 @@
 #include "mesher/formats/file_list.hpp"
 #include "mesher/formats/header_text.hpp"
 #include "mesher/formats/nrrd_frame.hpp"
+#include "mesher/formats/nrrd_segments.hpp"
 
 namespace cbc3d::formats {
 namespace {
@@ -24,6 +25,7 @@ std::string canonical(std::string_view key) {
 /// The fields, and where the header ends.
 struct Header {
   NrrdFields fields;
+  NrrdFields notes;                       ///< "key:=value", keys as they are written
   std::vector<std::string> listed_files;  ///< of "data file: LIST"
   std::size_t end = 0;
   bool ended = false;  ///< by an empty line
@@ -51,6 +53,9 @@ bool lists_files(const Header& header) {
 
 /// "key:=value" is for whoever wrote it; "field: value" is the standard's.
 bool is_key_and_value(std::string_view line) {
+  if (line.starts_with('#')) {
+    return false;
+  }
   const std::size_t colon = line.find(':');
   return colon != std::string_view::npos && line.substr(colon).starts_with(":=");
 }
@@ -67,7 +72,11 @@ Header parse(std::string_view head) {
     } else if (line->empty()) {
       header.ended = true;
       break;
-    } else if (!line->starts_with('#') && !is_key_and_value(*line)) {
+    } else if (is_key_and_value(*line)) {
+      const std::size_t colon = line->find(':');
+      header.notes.insert_or_assign(std::string(line->substr(0, colon)),
+                                    std::string(line->substr(colon + 2)));
+    } else if (!line->starts_with('#')) {
       take_field(*line, header);
     }
   }
@@ -246,6 +255,7 @@ ImageHeader read_nrrd_header(std::string_view head, const fs::path& path) {
   image.encoding = encoding_of(required(header.fields, "encoding"));
   image.big_endian = is_big_endian(header, image);
   take_nrrd_frame(header.fields, sizes_of(header.fields), image);
+  image.segments = nrrd_segments(header.notes, image.volumes);
   image.files = data_files(header, path, image.encoding);
   for (const auto& [key, value] : header.fields) {
     if (!is_known(key)) {

@@ -157,29 +157,39 @@ std::vector<double> units_mm(const std::string* text, std::size_t count, ImageHe
   return mm;
 }
 
-/// The numbers of the three axes of space; the others must have one sample.
+/// Another axis than those of space: volumes, or layers of segments, where it is the first or the last one.
+void take_volumes(std::size_t axis, const std::vector<std::int64_t>& sizes, ImageHeader& image) {
+  if (image.volumes > 1 || (axis > 0 && axis + 1 < sizes.size())) {
+    throw FormatError("it is " + std::to_string(sizes.size()) + "-dimensional with " +
+                      std::to_string(sizes[axis]) +
+                      " values along an axis between others; give one 3-D volume of it");
+  }
+  image.volumes = static_cast<std::size_t>(sizes[axis]);
+  image.volumes_interleaved = axis == 0;
+}
+
+/// The numbers of the three axes of space; of the others one may have several samples, which are volumes.
 std::array<std::size_t, 3> space_axes(const std::vector<bool>& in_space,
-                                      const std::vector<std::int64_t>& sizes, const NrrdFields& fields) {
+                                      const std::vector<std::int64_t>& sizes, const NrrdFields& fields,
+                                      ImageHeader& image) {
   std::array<std::size_t, 3> axes{};
   std::size_t count = 0;
   const auto kinds = words_of(find(fields, "kinds") != nullptr ? *find(fields, "kinds") : "");
   for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
     if (in_space[axis] && (count < 3 || sizes[axis] > 1)) {
       if (count == 3) {
-        throw FormatError("it is " + std::to_string(sizes.size()) + "-dimensional with " +
-                          std::to_string(sizes[axis]) + " volumes; give one 3-D volume of it");
+        take_volumes(axis, sizes, image);
+      } else {
+        axes[count++] = axis;
       }
-      axes[count++] = axis;
     } else if (sizes[axis] > 1) {
       const std::string kind = axis < kinds.size() ? lower_case(kinds[axis]) : "";
-      throw FormatError(
-          kind == "list" || kind.empty() || kind == "none" || kind == "???"
-              ? "it has " + std::to_string(sizes[axis]) +
-                    " components per voxel (layers of segments that overlap, as 3D Slicer stores them, or "
-                    "a vector image); export one label map of it"
-              : "it has " + std::to_string(sizes[axis]) +
-                    " components per voxel (a colour or vector image, kind " + kind +
-                    "); give a label image with one value per voxel");
+      if (kind != "list" && kind != "time" && !kind.empty() && kind != "none" && kind != "???") {
+        throw FormatError("it has " + std::to_string(sizes[axis]) +
+                          " components per voxel (a colour or vector image, kind " + kind +
+                          "); give a label image with one value per voxel");
+      }
+      take_volumes(axis, sizes, image);
     }
   }
   if (count < 3) {
@@ -214,7 +224,7 @@ void take_directions(const NrrdFields& fields, const std::string& text, const Sp
     in_space.push_back(v.has_value() && !(time && sizes[axis] == 1));
   }
   const auto mm = units_mm(find(fields, "spaceunits"), space.dimension, image);
-  const auto axes = space_axes(in_space, sizes, fields);
+  const auto axes = space_axes(in_space, sizes, fields, image);
   std::array<Triple, 3> steps{};
   for (std::size_t n = 0; n < 3; ++n) {
     image.size[n] = static_cast<std::size_t>(sizes[axes[n]]);
@@ -279,7 +289,7 @@ double spacing_of(const PlainAxes& axes, std::size_t axis, std::size_t size, boo
 }
 
 void take_spacings(const NrrdFields& fields, const std::vector<std::int64_t>& sizes, ImageHeader& image) {
-  const auto chosen = space_axes(domain_axes(fields, sizes.size()), sizes, fields);
+  const auto chosen = space_axes(domain_axes(fields, sizes.size()), sizes, fields, image);
   const PlainAxes axes = plain_axes(fields, sizes.size(), image);
   const bool given = find(fields, "spacings") != nullptr;
   const bool extent = find(fields, "axismins") != nullptr && find(fields, "axismaxs") != nullptr;

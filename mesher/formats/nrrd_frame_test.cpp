@@ -60,11 +60,17 @@ TEST_F(NrrdFrame, AxesOutsideSpace) {
   const std::string frame =
       "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
   EXPECT_EQ(header_of("a.nrrd", four("1 2 3 4", frame)).size, (std::array<std::size_t, 3>{2, 3, 4}));
-  expect_refusal("b.nrrd", four("2 2 2 3", frame + "kinds: list domain domain domain\n"),
-                 "layers of segments");
+  const ImageHeader layers =
+      header_of("b.nrrd", four("2 2 2 3", frame + "kinds: list domain domain domain\n"));
+  EXPECT_EQ(layers.size, (std::array<std::size_t, 3>{2, 2, 3}));
+  EXPECT_EQ(layers.volumes, 2U);
+  EXPECT_TRUE(layers.volumes_interleaved);
   expect_refusal("c.nrrd", four("3 2 2 2", frame + "kinds: RGB-color domain domain domain\n"),
                  "3 components");
-  expect_refusal("d.nrrd", four("2 2 2 3", ""), "3 volumes");
+  const ImageHeader volumes = header_of("d.nrrd", four("2 2 2 3", ""));
+  EXPECT_EQ(volumes.volumes, 3U);
+  EXPECT_FALSE(volumes.volumes_interleaved);
+  expect_refusal("e.nrrd", four("2 2 2 3", "kinds: domain list domain domain\n"), "between others");
 }
 
 TEST_F(NrrdFrame, WhatIsNoFrameIsRefused) {
@@ -78,7 +84,7 @@ TEST_F(NrrdFrame, WhatIsNoFrameIsRefused) {
   expect_refusal("g.nrrd", nrrd(space + "(1e300,0,0) (0,1,0) (0,0,1)\n"), "no direction");
   expect_refusal("h.nrrd", nrrd(space + "(1,0) (0,1,0) (0,0,1)\n"), "has 2 numbers");
   expect_refusal("i.nrrd", nrrd(space + "(1,0,0) (0,1,0)\n"), "are 2, but it has 3 axes");
-  expect_refusal("j.nrrd", nrrd(space + "(1,0,0) (0,1,0) none\n"), "components per voxel");
+  expect_refusal("j.nrrd", nrrd(space + "(1,0,0) (0,1,0) none\n"), "only 2 of its axes");
   expect_refusal("k.nrrd",
                  nrrd("space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (nan,0,0)\n"),
                  "origin");

@@ -18,12 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Mesh read_vtu(const fs::path& path, const ReadMeshOptions& options) {
-  return read_vtk(path, VtkFormat::xml, options.label_array);
+Mesh read_vtu(const fs::path& path, const ReadMeshOptions& options, MeshFileOptions& stated) {
+  return read_vtk(path, VtkFormat::xml, options.label_array, stated);
 }
 
-Mesh read_legacy_vtk(const fs::path& path, const ReadMeshOptions& options) {
-  return read_vtk(path, VtkFormat::legacy, options.label_array);
+Mesh read_legacy_vtk(const fs::path& path, const ReadMeshOptions& options, MeshFileOptions& stated) {
+  return read_vtk(path, VtkFormat::legacy, options.label_array, stated);
+}
+
+/// A reader that takes nothing but the mesh.
+template <Mesh (*Read)(const fs::path&, const ReadMeshOptions&)>
+Mesh read_cells(const fs::path& path, const ReadMeshOptions& options, MeshFileOptions& /*stated*/) {
+  return Read(path, options);
 }
 
 /// name, extension, interfaces, positive labels alone, writer, reader
@@ -31,10 +37,10 @@ constexpr std::array<MeshFormat, 8> kFormats = {{
     {"vtu", ".vtu", false, false, write_vtu, read_vtu},
     {"vtk", ".vtk", false, false, write_vtk, read_legacy_vtk},
     {"vtk-ascii", ".vtk", false, false, write_vtk_text, read_legacy_vtk},
-    {"gmsh22", ".msh", true, true, write_gmsh22, read_gmsh},
-    {"gmsh41", ".msh", true, true, write_gmsh41, read_gmsh},
-    {"abaqus", ".inp", true, false, write_abaqus, read_abaqus},
-    {"medit", ".mesh", true, false, write_medit, read_medit},
+    {"gmsh22", ".msh", true, true, write_gmsh22, read_cells<read_gmsh>},
+    {"gmsh41", ".msh", true, true, write_gmsh41, read_cells<read_gmsh>},
+    {"abaqus", ".inp", true, false, write_abaqus, read_cells<read_abaqus>},
+    {"medit", ".mesh", true, false, write_medit, read_cells<read_medit>},
     {"febio", ".feb", true, false, write_febio, nullptr},
 }};
 

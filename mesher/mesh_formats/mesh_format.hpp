@@ -17,8 +17,9 @@ struct MeshFormat {
   bool interfaces = false;     ///< facets between labels as named groups
   bool positive_labels = false;
   void (*write)(const FileMesh&, const std::filesystem::path&, const MeshFileOptions&) = nullptr;
-  /// Null for a format that is written alone.
-  Mesh (*read)(const std::filesystem::path&, const ReadMeshOptions&) = nullptr;
+  /// Points as the file has them, and what it states of names and coordinates. Null for a format that is
+  /// written alone.
+  Mesh (*read)(const std::filesystem::path&, const ReadMeshOptions&, MeshFileOptions& stated) = nullptr;
 };
 
 std::span<const MeshFormat> mesh_formats();

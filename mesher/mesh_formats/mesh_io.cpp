@@ -8,6 +8,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/mesh_coordinates.hpp"
 #include "mesher/mesh_formats/gmsh_writing.hpp"
 #include "mesher/mesh_formats/mesh_format.hpp"
 
@@ -80,13 +81,26 @@ void write_mesh(const QuadraticMesh& mesh, const fs::path& path, const MeshFileO
 }
 
 Mesh read_mesh(const fs::path& path, const ReadMeshOptions& options) {
+  MeshFileOptions stated;
+  return read_mesh(path, options, nullptr, stated);
+}
+
+Mesh read_mesh(const fs::path& path, const ReadMeshOptions& options, const ImageFrame* frame,
+               MeshFileOptions& stated) {
   const MeshFormat& format = format_of(path);
   if (format.read == nullptr) {
     throw InputError("'" + path.string() + "': the format " + std::string(format.name) +
                      " is written alone, not read; give " + read_extensions());
   }
   require_readable(path);
-  return format.read(path, options);
+  stated = {};
+  Mesh mesh = format.read(path, options, stated);
+  try {
+    to_lps(mesh, stated.coordinates, frame);
+  } catch (const InputError& error) {
+    throw InputError("'" + path.string() + "' states its coordinates: " + error.what());
+  }
+  return mesh;
 }
 
 }  // namespace cbc3d

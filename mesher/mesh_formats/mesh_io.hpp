@@ -51,6 +51,12 @@ void write_mesh(const QuadraticMesh& mesh, const std::filesystem::path& path,
 
 /// Reads a mesh with the labels of its cells. Other arrays are ignored, cells of lower dimension too. Throws
 /// InputError naming the file, the place and the remedy.
+/// The points become LPS mm where the file states other coordinates; voxel coordinates are refused.
 Mesh read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options = {});
+
+/// The same; `stated` becomes what the file says of names and coordinates, where it is a VTK file that says
+/// it. `frame` (or null) is that of the image which voxel coordinates are of.
+Mesh read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options, const ImageFrame* frame,
+               MeshFileOptions& stated);
 
 }  // namespace cbc3d

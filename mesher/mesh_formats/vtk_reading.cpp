@@ -11,14 +11,17 @@
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "mesher/core/child_process.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/mesh_formats/grid_arrays.hpp"
 #include "mesher/mesh_formats/vtk_faults.hpp"
+#include "mesher/mesh_formats/vtk_field_data.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -72,6 +75,81 @@ GridArrays arrays_of(vtkUnstructuredGrid& grid, vtkDataArray& labels) {
   return arrays;
 }
 
+/// What a file states, as arrays: labels, their names one line each, their colours, and the coordinates.
+struct StatedArrays {
+  std::vector<Label> labels;
+  std::vector<char> names, coordinates;
+  std::vector<std::int16_t> colours;  // three for each label, negative where it has none
+};
+
+StatedArrays arrays_of(const MeshFileOptions& stated) {
+  StatedArrays arrays;
+  for (const NamedLabel& named : stated.names.entries()) {
+    arrays.labels.push_back(named.label);
+    arrays.names.insert(arrays.names.end(), named.name.begin(), named.name.end());
+    arrays.names.push_back('\n');
+    for (std::size_t n = 0; n < 3; ++n) {
+      arrays.colours.push_back(named.colour ? static_cast<std::int16_t>((*named.colour)[n])
+                                            : std::int16_t{-1});
+    }
+  }
+  arrays.coordinates.assign(stated.coordinates.begin(), stated.coordinates.end());
+  return arrays;
+}
+
+MeshFileOptions stated_by(const StatedArrays& arrays) {
+  MeshFileOptions stated;
+  auto name = arrays.names.begin();
+  for (std::size_t n = 0; n < arrays.labels.size() && 3 * n + 2 < arrays.colours.size(); ++n) {
+    const auto end = std::find(name, arrays.names.end(), '\n');
+    NamedLabel named{.label = arrays.labels[n], .name = std::string(name, end), .colour = {}};
+    if (const auto* const rgb = &arrays.colours[3 * n]; rgb[0] >= 0) {
+      named.colour = {static_cast<std::uint8_t>(rgb[0]), static_cast<std::uint8_t>(rgb[1]),
+                      static_cast<std::uint8_t>(rgb[2])};
+    }
+    stated.names.set(std::move(named));
+    name = end == arrays.names.end() ? end : end + 1;
+  }
+  stated.coordinates.assign(arrays.coordinates.begin(), arrays.coordinates.end());
+  return stated;
+}
+
+void send_stated(const MeshFileOptions& stated, const ChildOutput& out) {
+  const StatedArrays arrays = arrays_of(stated);
+  send(out, arrays.labels);
+  send(out, arrays.names);
+  send(out, arrays.colours);
+  send(out, arrays.coordinates);
+}
+
+bool receive_stated(ChildProcess& child, std::uint64_t most_bytes, MeshFileOptions& stated) {
+  StatedArrays arrays;
+  const bool whole = receive(child, most_bytes, arrays.labels) && receive(child, most_bytes, arrays.names) &&
+                     receive(child, most_bytes, arrays.colours) &&
+                     receive(child, most_bytes, arrays.coordinates);
+  stated = stated_by(arrays);
+  return whole;
+}
+
+/// "SPACE=RAS" in the title of a legacy file, as 3D Slicer writes it; empty where the title says nothing.
+std::string space_in_title(const char* title) {
+  constexpr std::string_view kKey = "SPACE=";
+  const std::string_view text(title == nullptr ? "" : title);
+  const std::size_t at = text.find(kKey);
+  if (at == std::string_view::npos) {
+    return "";
+  }
+  const std::string_view rest = text.substr(at + kKey.size());
+  return std::string(rest.substr(0, rest.find_first_of(" \t\r\n;.,")));
+}
+
+std::string space_in_title(vtkUnstructuredGridReader& reader) {
+  return space_in_title(reader.GetHeader());
+}
+std::string space_in_title(vtkXMLUnstructuredGridReader& /*reader*/) {
+  return "";
+}
+
 std::string cell_arrays_of(vtkUnstructuredGrid& grid) {
   std::string names;
   for (int a = 0; a < grid.GetCellData()->GetNumberOfArrays(); ++a) {
@@ -82,7 +160,7 @@ std::string cell_arrays_of(vtkUnstructuredGrid& grid) {
 }
 
 void send_grid(vtkUnstructuredGrid* grid, const std::string& label_array, const std::string& others,
-               const ChildOutput& out) {
+               const std::string& space, const ChildOutput& out) {
   const auto say = [&out](Finding finding) { out.write(std::as_bytes(std::span(&finding, 1))); };
   if (grid == nullptr || grid->GetNumberOfCells() == 0 || grid->GetPoints() == nullptr ||
       grid->GetCellTypesArray() == nullptr) {
@@ -105,6 +183,11 @@ void send_grid(vtkUnstructuredGrid* grid, const std::string& label_array, const 
   send(out, arrays.offsets);
   send(out, arrays.connectivity);
   send(out, arrays.labels);
+  MeshFileOptions stated = field_data_of(*grid);
+  if (!space.empty()) {
+    stated.coordinates = space;
+  }
+  send_stated(stated, out);
 }
 
 /// Arrays that are not asked for are not read, so that they cannot be damaged.
@@ -134,7 +217,8 @@ void read_and_send(const fs::path& path, const std::string& label_array, const C
   reader->SetFileName(path.c_str());
   const std::string arrays = select_label_array(*reader, label_array);
   reader->Update();
-  send_grid(faults->text.empty() ? reader->GetOutput() : nullptr, label_array, arrays, out);
+  send_grid(faults->text.empty() ? reader->GetOutput() : nullptr, label_array, arrays,
+            space_in_title(*reader), out);
 }
 
 /// Memory for the most that deflate can pack into the file, and time for a slow disk.
@@ -159,7 +243,7 @@ ChildLimits limits_of(const fs::path& path) {
 }
 
 GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs::path& path,
-                        const std::string& label_array) {
+                        const std::string& label_array, MeshFileOptions& stated) {
   Finding finding = Finding::no_grid;
   GridArrays grid;
   const bool told = child.read(std::as_writable_bytes(std::span(&finding, 1)));
@@ -177,7 +261,7 @@ GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs:
   }
   if (told && receive(child, most_bytes, grid.points) && receive(child, most_bytes, grid.types) &&
       receive(child, most_bytes, grid.offsets) && receive(child, most_bytes, grid.connectivity) &&
-      receive(child, most_bytes, grid.labels)) {
+      receive(child, most_bytes, grid.labels) && receive_stated(child, most_bytes, stated)) {
     return grid;
   }
   fail(path, "VTK's reader fails on it (" + child.wait() + "); the file is damaged, write it again");
@@ -185,14 +269,15 @@ GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs:
 
 }  // namespace
 
-Mesh read_vtk(const fs::path& path, VtkFormat format, const std::string& label_array) {
+Mesh read_vtk(const fs::path& path, VtkFormat format, const std::string& label_array,
+              MeshFileOptions& stated) {
   const std::string array = label_array.empty() ? kLabelArray : label_array;
   const ChildLimits limits = limits_of(path);
   ChildProcess child(limits, [&](const ChildOutput& out) {
     format == VtkFormat::xml ? read_and_send<vtkXMLUnstructuredGridReader>(path, array, out)
                              : read_and_send<vtkUnstructuredGridReader>(path, array, out);
   });
-  const GridArrays grid = receive_grid(child, limits.memory_bytes, path, array);
+  const GridArrays grid = receive_grid(child, limits.memory_bytes, path, array, stated);
   return mesh_of_grid(grid, "cannot read '" + path.string() + "'");
 }
 

@@ -19,7 +19,8 @@ class VtkReading : public ::testing::Test {
   [[nodiscard]] std::string refusal_of(const std::string& bytes, VtkFormat format) const {
     folder_.write("m", bytes);
     try {
-      read_vtk(folder_.file("m"), format);
+      MeshFileOptions stated;
+      read_vtk(folder_.file("m"), format, "", stated);
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
       return error.what();
@@ -61,9 +62,10 @@ TEST_F(VtkReading, GoodFilesAreRead) {
 TEST_F(VtkReading, TheLabelArrayMayHaveAnyName) {
   const std::string file = vtu(cells("0 1 2 3", "4", "10"), "9");
   folder_.write("m", file);
-  EXPECT_EQ(read_vtk(folder_.file("m"), VtkFormat::xml, "label").tets.labels[0], 9);
+  MeshFileOptions stated;
+  EXPECT_EQ(read_vtk(folder_.file("m"), VtkFormat::xml, "label", stated).tets.labels[0], 9);
   try {
-    read_vtk(folder_.file("m"), VtkFormat::xml, "part");
+    read_vtk(folder_.file("m"), VtkFormat::xml, "part", stated);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("no cell array 'part', but 'label'"), std::string::npos)

@@ -18,6 +18,7 @@
 #include "mesher/mesh_formats/grid_arrays.hpp"
 #include "mesher/mesh_formats/parallel_deflate.hpp"
 #include "mesher/mesh_formats/vtk_faults.hpp"
+#include "mesher/mesh_formats/vtk_field_data.hpp"
 
 namespace cbc3d {
 namespace fs = std::filesystem;
@@ -76,7 +77,7 @@ class VtkArrays {
   vtkIdType cells_ = 0, nodes_ = 0;  // appended so far
 };
 
-vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const FileMesh& mesh) {
+vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const FileMesh& mesh, const MeshFileOptions& options) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points().size()));
@@ -89,6 +90,7 @@ vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const FileMesh& mesh) {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->SetPoints(points);
   arrays.give_to(*grid);
+  add_field_data(*grid, options);
   return grid;
 }
 
@@ -118,33 +120,36 @@ void foresee_arrays(vtkUnstructuredGrid& grid, std::size_t block_bytes, Parallel
   foresee(grid.GetCellData()->GetArray(kLabelArray), 0);
 }
 
-void write_legacy(const FileMesh& mesh, const fs::path& path, int file_type) {
+void write_legacy(const FileMesh& mesh, const fs::path& path, int file_type, const MeshFileOptions& options) {
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
   writer->SetFileType(file_type);
-  run_writer(*writer, *to_vtk(mesh), path);
+  if (options.coordinates != MeshFileOptions{}.coordinates) {
+    writer->SetHeader(("CBC3D mesh. SPACE=" + options.coordinates).c_str());  // where 3D Slicer looks for it
+  }
+  run_writer(*writer, *to_vtk(mesh, options), path);
 }
 
 }  // namespace
 
-void write_vtu(const FileMesh& mesh, const fs::path& path, const MeshFileOptions& /*options*/) {
+void write_vtu(const FileMesh& mesh, const fs::path& path, const MeshFileOptions& options) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   vtkNew<ParallelDeflate> compressor;
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressor(compressor);
   writer->SetCompressionLevel(1);
-  const auto grid = to_vtk(mesh);
+  const auto grid = to_vtk(mesh, options);
   foresee_arrays(*grid, writer->GetBlockSize(), *compressor);
   run_writer(*writer, *grid, path);
 }
 
-void write_vtk(const FileMesh& mesh, const fs::path& path, const MeshFileOptions& /*options*/) {
-  write_legacy(mesh, path, VTK_BINARY);
+void write_vtk(const FileMesh& mesh, const fs::path& path, const MeshFileOptions& options) {
+  write_legacy(mesh, path, VTK_BINARY, options);
 }
 
-void write_vtk_text(const FileMesh& mesh, const fs::path& path, const MeshFileOptions& /*options*/) {
-  write_legacy(mesh, path, VTK_ASCII);
+void write_vtk_text(const FileMesh& mesh, const fs::path& path, const MeshFileOptions& options) {
+  write_legacy(mesh, path, VTK_ASCII, options);
 }
 
 }  // namespace cbc3d

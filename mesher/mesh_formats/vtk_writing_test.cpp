@@ -33,7 +33,8 @@ TEST(VtkWriting, TextIsTextAndReadBack) {
   const Mesh mesh = testing::two_label_box(2);
   write_vtk_text(FileMesh(mesh, {.interfaces = false}), folder.file("m.vtk"), {});
   EXPECT_NE(folder.content("m.vtk").find("\nASCII\n"), std::string::npos);
-  EXPECT_EQ(read_vtk(folder.file("m.vtk"), VtkFormat::legacy).tets.nodes, mesh.tets.nodes);
+  MeshFileOptions stated;
+  EXPECT_EQ(read_vtk(folder.file("m.vtk"), VtkFormat::legacy, "", stated).tets.nodes, mesh.tets.nodes);
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ std::string text_of(const Vec3& p) {
 }
 
 /// The image of a file as ITK's filters take it.
-Grey::Pointer read_grey(const fs::path& path) {
-  const GreyImage image = read_grey_image(path);
+Grey::Pointer read_grey(const fs::path& path, const SegmentOptions& options) {
+  const GreyImage image = read_grey_image(path, {.volume = options.volume});
   auto grey = Grey::New();
   Grey::SizeType size;
   Grey::SpacingType spacing;
@@ -353,7 +353,7 @@ Levels levels_of(const Smoothed& smoothed, const std::vector<Grey::IndexType>& s
 LabelImage segment_image(const fs::path& grey_image, const SegmentOptions& options, const Progress& progress,
                          SegmentReport& report) {
   progress.step("reading " + grey_image.string(), 0);
-  const auto image = read_grey(grey_image);
+  const auto image = read_grey(grey_image, options);
   const auto seeds = indices_at(*image, options.seeds_mm, "seed");
   const auto targets = indices_at(*image, options.targets_mm, "target");
   const auto spacing = image->GetSpacing();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "mesher/core/label_image.hpp"
@@ -17,6 +18,7 @@ struct SegmentOptions {
   std::vector<Vec3> seeds_mm;    ///< physical positions within the structure, where the front starts
   std::vector<Vec3> targets_mm;  ///< physical positions that it is to reach: far ends, or a point of the wall
   FrontStop stop = FrontStop::first_target;  ///< the paper's choice
+  std::optional<int> volume{};               ///< of a 4-D image, counted from 0
   double sigma_mm =
       0;  ///< of the Gaussian under which gradients and levels are taken; 0: 3/4 of the mean spacing
   double edge_gradient = 0;    ///< gradient at the wall, grey values a mm; 0: measured around the seeds

@@ -72,6 +72,14 @@ QuadraticMesh straight_quadratic_mesh(const Mesh& mesh) {
   return quadratic;
 }
 
+void flip_orientation(QuadraticMesh& mesh) {
+  for (auto& n : mesh.tets.nodes) {  // of the corners 0 and 1, and of the edges at one of them alone
+    std::swap(n[0], n[1]);
+    std::swap(n[5], n[6]);
+    std::swap(n[7], n[8]);
+  }
+}
+
 Mesh corner_mesh(const QuadraticMesh& mesh) {
   Mesh corners;
   corners.points.assign(mesh.points.begin(), mesh.points.begin() + static_cast<std::ptrdiff_t>(mesh.corners));

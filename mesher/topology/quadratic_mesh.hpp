@@ -27,6 +27,9 @@ inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kQuadraticTetEdges =
 /// mesh with other cells than tets.
 QuadraticMesh straight_quadratic_mesh(const Mesh& mesh);
 
+/// Reverses the orientation of every tet.
+void flip_orientation(QuadraticMesh& mesh);
+
 /// The straight tets of the corners.
 Mesh corner_mesh(const QuadraticMesh& mesh);
 

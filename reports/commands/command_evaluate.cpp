@@ -6,9 +6,11 @@
 #include "cases/phantoms/registry.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/input/image_input.hpp"
+#include "mesher/input/named_text.hpp"
+#include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "metrics/evaluate.hpp"
 #include "reports/commands/commands.hpp"
@@ -31,7 +33,7 @@ struct EvaluateCommandOptions {
   bool solve = false;
   double solve_timeout_s = RunOptions{}.timeout_s;
   metrics::EvaluateOptions metrics;
-  ReadImageOptions reading;
+  ImageInput input{.many_labels = true};
   ReadMeshOptions mesh_reading;
 };
 
@@ -83,23 +85,50 @@ nlohmann::json solver_section(const EvaluateCommandOptions& options) {
                 .memory_limit_bytes = RunOptions{}.memory_limit_bytes});
 }
 
-int evaluate(const EvaluateCommandOptions& options) {
+/// cbc3d-solve reads the image by itself.
+void require_solvable(const EvaluateCommandOptions& options) {
+  const ImageInput& input = options.input;
+  const bool chosen = !input.choice.labels.empty() || !input.choice.background.empty() || input.read.volume ||
+                      input.read.layer;
+  if (options.solve && chosen) {
+    throw InputError(
+        "--solve takes images as they are; write the choice of labels, volume or layer into an image "
+        "first (cbc3d clean), or leave it out");
+  }
+}
+
+/// Names of labels beside them, also in the faults.
+void add_label_names(nlohmann::json& evaluation, const LabelNames& names) {
+  evaluation["label_names"] = names_json(names);
+  if (!names.empty()) {
+    evaluation["image"]["label_names"] = names_json(names);
+  }
+  add_names(evaluation, names);
+  for (nlohmann::json& fault : evaluation.at("faults")) {
+    fault = with_names(fault.get<std::string>(), names);
+  }
+}
+
+int evaluate(EvaluateCommandOptions& options) {
   if (!options.json.empty()) {
     require_writable(options.json);
   }
+  require_solvable(options);
   set_thread_count(options.threads);
   metrics::EvaluateOptions judged = options.metrics;
   judged.shapes = shapes_of(options);
   TerminalProgress progress(options.quiet);
   progress.step("reading", 0);
-  const Mesh mesh = read_mesh(options.mesh, options.mesh_reading);
-  std::vector<std::string> warnings;
-  const LabelImage image = read_label_image(options.image, options.reading, &warnings);
-  for (const std::string& warning : warnings) {
-    progress.line("warning: " + warning, true);
+  const LabelImage image = read_input_image(options.image, options.input);
+  MeshFileOptions stated;
+  const Mesh mesh = read_mesh(options.mesh, options.mesh_reading, &image.frame, stated);
+  LabelNames& names = options.input.names;
+  names.add_unknown(stated.names);
+  for (const std::string& warning : options.input.warnings) {
+    progress.line("warning: " + with_names(warning, names), true);
   }
   nlohmann::json evaluation = metrics::evaluate(mesh, image, judged, progress);
-  evaluation["warnings"] = warnings;
+  evaluation["warnings"] = options.input.warnings;
   evaluation["image"] = image_section(image);
   if (options.solve) {
     progress.step("solving", 1);
@@ -107,12 +136,13 @@ int evaluate(const EvaluateCommandOptions& options) {
   }
   constexpr double kMegabytesPerByte = 1e-6;
   evaluation["evaluation_peak_mb"] = kMegabytesPerByte * static_cast<double>(process_peak_rss_bytes());
+  add_label_names(evaluation, names);
   progress.done();
   if (!options.json.empty()) {
     write_json(options.json, evaluation);
   }
   if (!options.quiet) {
-    std::cout << evaluation_text(evaluation);
+    std::cout << with_names(evaluation_text(evaluation), names);
   }
   return kExitSuccess;
 }
@@ -164,11 +194,7 @@ Command add_evaluate_command(CLI::App& app) {
   parser->add_option("--solve-timeout", options->solve_timeout_s, "time limit of that process, s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  parser->add_flag("--accept-shear", options->reading.accept_shear,
-                   "take the nearest orthogonal frame of an image whose axes are sheared (accept_shear)");
-  parser->add_flag(
-      "--round", options->reading.round_values,
-      "take values within 1e-4 of an integer as that integer, of images of floats (round_values)");
+  add_reading_options(*parser, options->input);
   parser
       ->add_option(
           "--label-array", options->mesh_reading.label_array,

@@ -34,7 +34,7 @@ Command add_merge_command(CLI::App& app) {
       "Joins the folders of several runs, such as the shards of a job array, in one; then `tables` "
       "and `report` work on that");
   parser->add_option("DIR", options->folders, "folders of runs")->required();
-  parser->add_option("--out", options->out, "folder to make")->required();
+  parser->add_option("-o,--out", options->out, "folder to make")->required();
   add_idle_options(parser, options->threads, "merging needs", options->quiet, "no summary on the screen");
   return {parser, [options] { return merge(*options); }};
 }

@@ -53,7 +53,7 @@ Command add_phantom_command(CLI::App& app) {
   auto options = std::make_shared<PhantomOptions>();
   CLI::App* parser = app.add_subcommand("phantom", "Writes a generated label image");
   parser->add_option("NAME", options->name, names_help())->required();
-  parser->add_option("--out", options->out, "image file: .nii, .nii.gz, .nrrd, .mha or .mhd")->required();
+  parser->add_option("-o,--out", options->out, "image file: .nii, .nii.gz, .nrrd, .mha or .mhd")->required();
   parser->add_option("--size", options->size, "voxels along each axis, X,Y,Z; default: the generator's own")
       ->delimiter(',')
       ->expected(3);

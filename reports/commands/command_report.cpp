@@ -56,7 +56,7 @@ Command add_report_command(CLI::App& app) {
       "Writes a run as one HTML file that opens from disk, on a phone and in print: tables, plots, "
       "pictures, failed jobs, provenance");
   parser->add_option("DIR", options->folder, "folder of a run or a sweep")->required();
-  parser->add_option("--out", options->out, "HTML file to write")->required();
+  parser->add_option("-o,--out", options->out, "HTML file to write")->required();
   parser->add_option("--title", options->title, "title of the report");
   parser->add_option("--microbenchmarks", options->microbenchmarks,
                      "Google Benchmark's JSON files to put in");

@@ -62,7 +62,7 @@ Command add_run_command(CLI::App& app) {
                                         "code 0 once every job has its line");
   add_selection_options(parser, options->selection);
   parser
-      ->add_option("--out", options->out,
+      ->add_option("-o,--out", options->out,
                    "folder for results.jsonl, meshes, tables and figures; made if need be")
       ->required();
   parser

@@ -51,7 +51,7 @@ Command add_sweep_command(CLI::App& app) {
       "Measures times over thread counts: every repeat takes one sample of each job in turn, all samples are "
       "kept; medians, spreads, speed-up and efficiency with errors, in all and for every stage");
   add_selection_options(parser, options->selection);
-  parser->add_option("--out", options->out, "folder for results, tables and plots; made if need be")
+  parser->add_option("-o,--out", options->out, "folder for results, tables and plots; made if need be")
       ->required();
   add_limit_options(parser, options->run, options->memory_limit_gib);
   parser->add_option("--microbenchmarks", options->microbenchmarks,

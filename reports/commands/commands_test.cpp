@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "mesher/core/image_io.hpp"
+#include "mesher/core/mesh_coordinates.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "reports/results/result.hpp"
@@ -106,6 +107,45 @@ TEST(Commands, EvaluateSolvesOnRequest) {
   ASSERT_EQ(run_child({{SOLVE, mesh, "--image", image, "--quiet", "--json", own}, 1, 120, 0}).exit_code, 0);
   solver.erase("reason");
   EXPECT_EQ(solver, read_json(own)["solver"]);
+}
+
+TEST(Commands, EvaluateNamesLabelsByTheTableBesideTheImageOrTheMesh) {
+  const TemporaryFolder folder;
+  const auto image = folder.path() / "cube.nrrd", mesh = folder.path() / "cube.vtu",
+             json = folder.path() / "figures.json";
+  write_cube(3, image, mesh);
+  MeshFileOptions named;
+  named.names.set({.label = 1, .name = "heart", .colour = {}});
+  write_mesh(read_mesh(mesh), mesh, named);
+  ASSERT_EQ(bench({"evaluate", mesh, image, "--json", json, "--quiet"}).exit_code, 0);
+  EXPECT_EQ(read_json(json)["label_names"]["1"], "heart") << "of the mesh";
+  folder.write("cube.tsv", "index\tname\n1\tright lung\n");
+  ASSERT_EQ(bench({"evaluate", mesh, image, "--json", json, "--quiet"}).exit_code, 0);
+  const Json figures = read_json(json);
+  for (const char* section : {"quality", "fidelity", "topology", "surface"}) {
+    EXPECT_EQ(figures[section]["per_label"][0]["name"], "right lung") << section;
+  }
+  EXPECT_EQ(figures["image"]["label_names"]["1"], "right lung");
+}
+
+TEST(Commands, EvaluateTakesLabelsAndStatedCoordinates) {
+  const TemporaryFolder folder;
+  const auto image = folder.path() / "cube.nrrd", mesh = folder.path() / "cube.vtu",
+             json = folder.path() / "a.json", other = folder.path() / "b.json";
+  write_cube(4, image, mesh);
+  ASSERT_EQ(bench({"evaluate", mesh, image, "--json", json, "--quiet"}).exit_code, 0);
+  for (const char* const coordinates : {"RAS", "voxel"}) {
+    const LabelImage read = read_label_image(image);
+    Mesh moved = read_mesh(mesh);
+    from_lps(moved, coordinates, &read.frame);
+    write_mesh(moved, folder.path() / "moved.vtu", {.names = {}, .coordinates = coordinates});
+    ASSERT_EQ(bench({"evaluate", folder.path() / "moved.vtu", image, "--json", other, "--quiet"}).exit_code,
+              0);
+    EXPECT_EQ(read_json(other)["fidelity"], read_json(json)["fidelity"]) << coordinates;
+  }
+  EXPECT_EQ(bench({"evaluate", mesh, image, "--labels", "7"}).exit_code, 2);
+  EXPECT_EQ(bench({"evaluate", mesh, image, "--labels", "1", "--solve"}).exit_code, 2);
+  EXPECT_EQ(bench({"evaluate", mesh, image, "--labels", "1", "--quiet"}).exit_code, 0);
 }
 
 TEST(Commands, AMeshThatTheSolverRefusesIsEvaluatedAllTheSame) {

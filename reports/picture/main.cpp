@@ -4,9 +4,9 @@
 #include <iostream>
 
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
+#include "mesher/input/image_input.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "reports/picture/scene.hpp"
 
@@ -14,6 +14,7 @@ namespace {
 
 struct Options {
   std::string mesh, image, cut, surface, close_up, overlay, beside, mixed_mesh, mixed_caption, small;
+  cbc3d::ImageInput input{.many_labels = true};
   cbc3d::reports::PictureOptions picture;
   int threads = 0;
   bool quiet = false;
@@ -32,8 +33,11 @@ int draw(Options options) {
   cbc3d::set_thread_count(options.threads);
   cbc3d::TerminalProgress progress(options.quiet);
   progress.step("reading", 0);
-  const cbc3d::Mesh mesh = cbc3d::read_mesh(options.mesh);
-  const cbc3d::LabelImage image = cbc3d::read_label_image(options.image);
+  const cbc3d::LabelImage image = cbc3d::read_input_image(options.image, options.input);
+  cbc3d::MeshFileOptions stated;
+  const cbc3d::Mesh mesh = cbc3d::read_mesh(options.mesh, {}, &image.frame, stated);
+  options.picture.names = options.input.names;
+  options.picture.names.add_unknown(stated.names);
   const std::vector<Kind> kinds{{"cut section", options.cut, cbc3d::reports::draw_cut_section},
                                 {"surface", options.surface, cbc3d::reports::draw_surface},
                                 {"close-up", options.close_up, cbc3d::reports::draw_close_up},
@@ -78,6 +82,7 @@ int main(int argc, char** argv) {
   app.add_option("--size", options.picture.size_px, "width and height, pixels")
       ->check(CLI::Range(100, 8000))
       ->capture_default_str();
+  cbc3d::add_reading_options(app, options.input);
   app.add_option("--threads", options.threads, "threads; 0: all cores")->capture_default_str();
   app.add_flag("--quiet", options.quiet, "no progress");
   try {

@@ -162,7 +162,7 @@ void add_legend(vtkRenderer* renderer, const LabelImage& image, const PictureOpt
   for (std::size_t m = 1; m <= count; ++m) {
     const Colour colour = material_colour(m);
     vtkNew<vtkTextActor> text;
-    text->SetInput((" label " + std::to_string(image.labels[m]) + " ").c_str());
+    text->SetInput((" " + options.names.text(image.labels[m]) + " ").c_str());
     vtkTextProperty* style = text->GetTextProperty();
     style->SetFontSize(options.size_px / 48);
     style->SetColor(0.1, 0.1, 0.1);

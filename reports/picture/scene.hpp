@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mesher/core/label_image.hpp"
+#include "mesher/core/label_names.hpp"
 #include "mesher/core/mesh.hpp"
 
 namespace cbc3d::reports {
@@ -12,6 +13,7 @@ namespace cbc3d::reports {
 struct PictureOptions {
   int size_px = 1200;               ///< width and height
   std::string caption;              ///< shown above the picture
+  LabelNames names{};               ///< of the labels, for the legend
   std::filesystem::path small_dir;  ///< where a small copy as JPEG goes, for pages; empty: none
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesher/core/error.hpp"
+#include "mesher/input/names_json.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -124,7 +125,7 @@ std::optional<ImageData> image_of(const Json& image) {
     return std::nullopt;
   }
   return ImageData{numbers_of<std::int64_t>(at(image, "size")), numbers_of<double>(at(image, "spacing_mm")),
-                   numbers_of<std::int64_t>(at(image, "labels"))};
+                   numbers_of<std::int64_t>(at(image, "labels")), names_of_json(at(image, "label_names"))};
 }
 
 std::vector<std::pair<std::string, double>> stages_of(const Json& stages) {

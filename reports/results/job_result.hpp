@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/core/label_names.hpp"
 #include "metrics/catalog.hpp"
 #include "reports/results/result.hpp"
 
@@ -23,6 +24,7 @@ struct ImageData {
   std::vector<std::int64_t> size;  ///< voxels along each axis
   std::vector<double> spacing_mm;
   std::vector<std::int64_t> labels;
+  LabelNames names{};  ///< of its labels
 };
 
 struct JobResult {

@@ -30,7 +30,9 @@ Row image_row(const std::string& case_name, const ImageData& image, const cases:
       std::adjacent_find(spacing_mm.begin(), spacing_mm.end(), std::not_equal_to<>{}) == spacing_mm.end();
   std::string labels;
   for (const std::int64_t label : image.labels) {
-    labels += (labels.empty() ? "" : ", ") + std::to_string(label);
+    const NamedLabel* const named = image.names.find(static_cast<Label>(label));
+    labels +=
+        (labels.empty() ? "" : ", ") + std::to_string(label) + (named == nullptr ? "" : " " + named->name);
   }
   return {case_name,
           subject == nullptr ? "" : subject->title,

@@ -17,6 +17,8 @@ TEST(ImageDataTable, StandsBesideThePapers) {
   EXPECT_EQ(images.rows[0].cells[2].text, "0.50 x 0.50 x 1.25");
   EXPECT_EQ(images.rows[0].cells[3].text, "8 x 9 x 10");
   EXPECT_EQ(images.rows[1].figure, "not read: no mesh of it was evaluated");
+  line["image"]["label_names"] = {{"4", "heart"}};
+  EXPECT_EQ(table_of(image_data_table, {line}).rows[0].cells[1].text, "2 (labels 1, 4 heart)");
   EXPECT_EQ(images.rows[5].cells[3].text, "1001 x 1001 x 4182");
 }
 

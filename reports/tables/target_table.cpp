@@ -16,12 +16,15 @@ using metrics::Purpose;
 constexpr Purpose kPurposes[] = {Purpose::distance, Purpose::smooth, Purpose::shape, Purpose::solver,
                                  Purpose::topology, Purpose::labels, Purpose::count, Purpose::time};
 
-/// "label 4", "labels 3, 5"; empty when there is none.
-std::string labels_text(const std::vector<long>& labels) {
+/// "label 4", "labels 3, 5", "right lung (4)"; empty when there is none.
+std::string labels_text(const std::vector<long>& labels, const LabelNames& names) {
+  if (labels.size() == 1) {
+    return names.text(static_cast<Label>(labels[0]));
+  }
   constexpr std::size_t kMost = 6;
   std::string text;
   for (std::size_t n = 0; n < std::min(kMost, labels.size()); ++n) {
-    text += (n == 0 ? labels.size() == 1 ? "label " : "labels " : ", ") + std::to_string(labels[n]);
+    text += (n == 0 ? "labels " : ", ") + std::to_string(labels[n]);
   }
   return labels.size() > kMost ? text + " and " + std::to_string(labels.size() - kMost) + " more" : text;
 }
@@ -29,7 +32,9 @@ std::string labels_text(const std::vector<long>& labels) {
 /// The labels in question in the first run that ended well.
 std::string where_of(const Runs& runs, MetricId id) {
   const JobResult* good = first_good(runs);
-  return good == nullptr || !good->worst_labels.contains(id) ? "" : labels_text(good->worst_labels.at(id));
+  return good == nullptr || !good->worst_labels.contains(id)
+             ? ""
+             : labels_text(good->worst_labels.at(id), good->image ? good->image->names : LabelNames());
 }
 
 std::string joined(const std::string& a, const std::string& b) {

@@ -17,6 +17,17 @@ Json compared_line(const std::string& mesher, double angle_deg, double error_per
   return line;
 }
 
+TEST(TargetTable, LabelsHaveTheirNames) {
+  Json line = compared_line("cbc3d", 20, .5, 3000);
+  line["image"] = {{"size", {8, 9, 10}},
+                   {"spacing_mm", {1, 1, 1}},
+                   {"labels", {2, 4}},
+                   {"label_names", {{"4", "right lung"}}}};
+  const Table targets = table_of(target_table, {line, compared_line("cgal", 16, -1.25, 2000)});
+  EXPECT_EQ(text_in(targets, "nidus", "shape: min dihedral angle (deg)", 0),
+            "1.00 (20.00 deg, right lung (4))");
+}
+
 TEST(TargetTable, FiguresAreMultiplesOfTheBest) {
   const Table targets =
       table_of(target_table, {compared_line("cbc3d", 20, .5, 3000), compared_line("cgal", 16, -1.25, 2000),

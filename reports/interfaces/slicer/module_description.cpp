@@ -1,0 +1,229 @@
+#include "reports/interfaces/slicer/module_description.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/pipeline/presets.hpp"
+
+namespace cbc3d::slicer {
+namespace {
+
+/// A text as XML has it.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return out;
+}
+
+std::string element(const std::string& name, const std::string& text) {
+  return "      <" + name + ">" + escaped(text) + "</" + name + ">\n";
+}
+
+/// "max-distance" as "Max distance".
+std::string label_of(const OptionRow& row) {
+  std::string label = row.name;
+  std::replace(label.begin(), label.end(), '-', ' ');
+  label[0] = static_cast<char>(label[0] - 'a' + 'A');
+  return label + (row.unit.empty() ? "" : " (" + row.unit + ")");
+}
+
+/// Names of parameters are identifiers.
+std::string identifier_of(const OptionRow& row) {
+  std::string name;
+  for (const char c : row.name) {
+    const bool begins = !name.empty() && name.back() == '-';
+    if (begins) name.pop_back();
+    name += begins ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  return name;
+}
+
+/// The defaults of all presets that have the option.
+std::vector<std::string> defaults_of(const OptionRow& row) {
+  const ImageFrame frame;
+  std::vector<std::string> defaults;
+  for (const std::string& preset : preset_names()) {
+    const MeshImageOptions options = preset_options(preset, frame);
+    if (has_option(options, row)) {
+      defaults.push_back(default_text(row, options, frame.voxel_diagonal_mm()));
+    }
+  }
+  return defaults;
+}
+
+bool has_one_default(const OptionRow& row) {
+  const std::vector<std::string> defaults = defaults_of(row);
+  const MeshImageOptions options = preset_options(preset_names().front(), ImageFrame());
+  const bool same = std::all_of(defaults.begin(), defaults.end(),
+                                [&](const std::string& text) { return text == defaults.front(); });
+  return same && !is_unset(row, options) && !row.scales_with_voxels;
+}
+
+std::string description_of(const OptionRow& row) {
+  std::string text = row.text;
+  if (row.kind == OptionKind::number || row.kind == OptionKind::count) {
+    text += "; " + range_text(row) + (row.unit.empty() ? "" : " " + row.unit);
+  }
+  if (row.kind == OptionKind::label_numbers) {
+    text += "; " + row.symbol + " for each label, separated by commas";
+  }
+  if (widget_of(row) == Widget::text && row.kind != OptionKind::label_numbers) {
+    text += "; empty:";
+    for (const std::string& preset : preset_names()) {
+      const MeshImageOptions options = preset_options(preset, ImageFrame());
+      if (has_option(options, row)) {
+        text += " " + default_text(row, options, ImageFrame().voxel_diagonal_mm()) + " (" + preset + ")";
+      }
+    }
+  }
+  return text;
+}
+
+/// Slicer's spin boxes need an upper end and a step.
+std::string constraints_of(const OptionRow& row) {
+  const double highest = std::isinf(row.range.highest) ? 1e9 : row.range.highest;
+  const double step = row.kind == OptionKind::count ? 1 : highest <= 1 ? 0.01 : 0.1;
+  return "      <constraints>\n        <minimum>" + value_text(row.range.lowest) +
+         "</minimum>\n        <maximum>" + value_text(highest) + "</maximum>\n        <step>" +
+         value_text(step) + "</step>\n      </constraints>\n";
+}
+
+std::vector<std::string> choices_of(const OptionRow& row) {
+  return row.kind == OptionKind::on_off ? std::vector<std::string>{"true", "false"} : row.choices;
+}
+
+std::string choices_of(const std::vector<std::string>& choices) {
+  std::string text;
+  for (const std::string& choice : choices) {
+    text += element("element", choice);
+  }
+  return text;
+}
+
+std::string parameter(const std::string& type, const std::string& content) {
+  return "    <" + type + ">\n" + content + "    </" + type + ">\n";
+}
+
+std::string parameter_of(const OptionRow& row) {
+  const std::string head = element("name", identifier_of(row)) + element("longflag", "--" + row.name) +
+                           element("description", description_of(row)) + element("label", label_of(row));
+  switch (widget_of(row)) {
+    case Widget::boolean:
+      return parameter("boolean", head + element("default", "false"));
+    case Widget::integer:
+      return parameter("integer", head + element("default", defaults_of(row).front()) + constraints_of(row));
+    case Widget::real:
+      return parameter("double", head + element("default", defaults_of(row).front()) + constraints_of(row));
+    case Widget::enumeration:
+      return parameter("string-enumeration", head + element("default", kPresetChoice) +
+                                                 element("element", kPresetChoice) +
+                                                 choices_of(choices_of(row)));
+    case Widget::text:
+      break;
+  }
+  return parameter("string", head + element("default", ""));
+}
+
+std::string files_group() {
+  return "  <parameters>\n    <label>Files</label>\n    <description>A label map in, a mesh "
+         "out</description>\n"
+         "    <image type=\"label\">\n" +
+         element("name", "labelMap") + element("label", "Label map") + element("channel", "input") +
+         element("index", "0") +
+         element("description", "The segmentation: every value but 0 is a label to be meshed") +
+         "    </image>\n    <geometry type=\"model\" fileExtensions=\".vtk\">\n" + element("name", "mesh") +
+         element("label", "Mesh") + element("channel", "output") + element("index", "1") +
+         element("description",
+                 "The mesh as an unstructured grid with the cell data \"label\", in physical LPS mm") +
+         "    </geometry>\n  </parameters>\n";
+}
+
+std::string first_group() {
+  std::string text =
+      "  <parameters>\n    <label>Mesh</label>\n    <description>What most users set</description>\n" +
+      parameter("string-enumeration",
+                element("name", "preset") + element("longflag", "--preset") +
+                    element("description", "quality: our best; paper: the published method") +
+                    element("label", "Preset") + element("default", preset_names().front()) +
+                    choices_of(preset_names()));
+  for (const std::string& name : first_options()) {
+    text += parameter_of(find_option(name));
+  }
+  return text +
+         parameter("integer", element("name", "threads") + element("longflag", "--threads") +
+                                  element("description", "0: all cores") + element("label", "Threads") +
+                                  element("default", "0") +
+                                  "      <constraints>\n        <minimum>0</minimum>\n        "
+                                  "<maximum>1024</maximum>\n        <step>1</step>\n      </constraints>\n") +
+         "  </parameters>\n";
+}
+
+struct FoldedGroup {
+  OptionGroup group;
+  const char* label;
+};
+constexpr FoldedGroup kFolded[] = {{OptionGroup::cleaning, "Image pre-processing"},
+                                   {OptionGroup::lattice, "Lattice and its refinement"},
+                                   {OptionGroup::improvement, "Improvement"},
+                                   {OptionGroup::deformation, "Deformation (preset paper)"}};
+
+std::string folded_group(const FoldedGroup& folded) {
+  std::string text = "  <parameters advanced=\"true\">\n    <label>" + escaped(folded.label) +
+                     "</label>\n    <description>Options of this part of the method</description>\n";
+  const auto& first = first_options();
+  for (const OptionRow& row : option_table()) {
+    if (row.group == folded.group && std::find(first.begin(), first.end(), row.name) == first.end()) {
+      text += parameter_of(row);
+    }
+  }
+  return text + "  </parameters>\n";
+}
+
+}  // namespace
+
+Widget widget_of(const OptionRow& row) {
+  switch (row.kind) {
+    case OptionKind::on_off:  // a box without a tick says nothing, which must be what every preset has
+      return has_one_default(row) && defaults_of(row).front() == "false" ? Widget::boolean
+                                                                         : Widget::enumeration;
+    case OptionKind::choice:
+      return Widget::enumeration;
+    case OptionKind::label_numbers:
+      return Widget::text;
+    default:
+      break;
+  }
+  if (!has_one_default(row)) {
+    return Widget::text;
+  }
+  return row.kind == OptionKind::count ? Widget::integer : Widget::real;
+}
+
+const std::vector<std::string>& first_options() {
+  static const std::vector<std::string> kFirst = {"elements", "edge-length",  "max-distance",
+                                                  "size",     "min-dihedral", "mixed"};
+  return kFirst;
+}
+
+std::string module_description(const std::string& version) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<executable>\n"
+      "  <category>Surface Models</category>\n  <title>CBC3D tetrahedral mesh</title>\n"
+      "  <description>Meshes every label of a segmentation: one conforming volume mesh with smooth "
+      "boundaries "
+      "between the labels, for finite elements.</description>\n  <version>" +
+      version +
+      "</version>\n  <documentation-url></documentation-url>\n  <license>Apache-2.0</license>\n"
+      "  <contributor>The CBC3D developers</contributor>\n  <acknowledgements>The method is that of "
+      "Drakopoulos "
+      "et al., Image-To-Mesh Conversion for Biomedical Simulations.</acknowledgements>\n" +
+      files_group() + first_group();
+  for (const FoldedGroup& folded : kFolded) {
+    text += folded_group(folded);
+  }
+  return text + "</executable>\n";
+}
+
+}  // namespace cbc3d::slicer
