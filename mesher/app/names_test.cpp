@@ -99,6 +99,16 @@ TEST_F(Names, OfSevenSegmentsAreInTheMeshTheReportAndInfo) {
   EXPECT_EQ(json::parse(run("info --json " + at("seven.seg.nrrd")))["labels"][1]["name"], "right lung");
 }
 
+TEST_F(Names, AreGroupsAndPartsOfOtherFormats) {
+  for (const char* const mesh : {"m.msh", "m.inp", "m.feb"}) {
+    run("mesh " + at("seven.seg.nrrd") + kQuick + "-o " + at(mesh));
+    EXPECT_NE(bytes_of(at(mesh)).find("right_lung"), std::string::npos) << mesh;
+  }
+  run("mesh " + at("seven.seg.nrrd") + kQuick + "-o " + at("m.vtu"));
+  run("surface " + at("m.vtu") + " --quiet -o " + at("s.obj"));
+  EXPECT_NE(bytes_of(at("s.obj")).find("right_lung"), std::string::npos);
+}
+
 TEST_F(Names, AreInWarningsAndInWhatCleanSays) {
   std::string bytes =
       seg_nrrd(1, notes_of_segment(0, "heart", 1, 0) + notes_of_segment(1, "right lung", 5, 0),

@@ -19,14 +19,14 @@ const std::map<std::string, SurfaceParts> kParts = {
 struct SurfaceCommand {
   std::string mesh, out, per = "label";
   ReadMeshOptions reading;
-  LabelNames names;
   CommonOptions common;
 };
 
 SurfaceMesh surface_of(const SurfaceCommand& command) {
-  const Mesh mesh = read_mesh(command.mesh, command.reading);
+  MeshFileOptions stated;
+  const Mesh mesh = read_mesh(command.mesh, command.reading, nullptr, stated);
   try {
-    return surface_of(mesh, kParts.at(command.per), command.names);
+    return surface_of(mesh, kParts.at(command.per), stated.names);
   } catch (const InputError& error) {
     throw InputError("'" + command.mesh + "': " + error.what());
   }
