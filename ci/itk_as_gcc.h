@@ -1,5 +1,5 @@
-// Debian's ITK, which GCC built, refuses every other compiler, so its header is read first under GCC's name. Read by force,
-// before all else, by clang-tidy (ci/tidy) and by clang (ci/fuzz).
+// Debian's ITK, which GCC built, refuses every other compiler, so its header is read first under GCC's name.
+// Read by force, before all else, by clang-tidy (ci/tidy) and by clang (ci/fuzz).
 #pragma once
 #if __has_include(<itk_compiler_detection.h>)
 #pragma push_macro("__clang__")

@@ -11,7 +11,8 @@ int main() {
   auto image = ImageType::New();
   image->SetRegions(ImageType::SizeType{{24, 16, 16}});
   image->Allocate(true);
-  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, {{{4, 4, 4}}, {{16, 8, 8}}}); !it.IsAtEnd(); ++it)
+  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, {{{4, 4, 4}}, {{16, 8, 8}}}); !it.IsAtEnd();
+       ++it)
     it.Set(it.GetIndex()[0] < 12 ? 1 : 2);
 
   auto filter = itk::CBC3DImageToMeshFilter<ImageType>::New();
@@ -20,7 +21,8 @@ int main() {
   filter->Update();
 
   std::map<int, int> cells;
-  for (auto it = filter->GetOutput()->GetCellData()->Begin(); it != filter->GetOutput()->GetCellData()->End(); ++it)
+  for (auto it = filter->GetOutput()->GetCellData()->Begin(); it != filter->GetOutput()->GetCellData()->End();
+       ++it)
     ++cells[it.Value()];
   for (const auto& [label, count] : cells) std::cout << "label " << label << ": " << count << " cells\n";
   return cells.size() == 2 && cells.count(1) == 1 && cells.count(2) == 1 ? 0 : 1;

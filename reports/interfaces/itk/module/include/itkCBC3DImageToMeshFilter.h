@@ -11,26 +11,26 @@
 #include "mesher/pipeline/mesh_array.hpp"
 #include "mesher/pipeline/option_table.hpp"
 
-namespace itk
-{
+namespace itk {
 /** A mesh of labelled cells with coordinates of double precision. */
 using CBC3DMesh = Mesh<int, 3, DefaultStaticMeshTraits<int, 3, 3, double, double, int>>;
 
 /** \class CBC3DImageToMeshFilter
- * \brief Meshes every label of a label image: one conforming mesh of tetrahedra with smooth boundaries between the labels.
+ * \brief Meshes every label of a label image: one conforming mesh of tetrahedra with smooth boundaries
+ * between the labels.
  *
- * The input is a 3-D image of integers in which 0 is background. The output has a TetrahedronCell for every tetrahedron, its
- * label as cell data, and points in the image's physical space (LPS mm). What of the image the mesh lacks stands in
- * GetWarnings() after Update(). The option "mixed" is refused, for ITK has no cell for its pyramids.
+ * The input is a 3-D image of integers in which 0 is background. The output has a TetrahedronCell for every
+ * tetrahedron, its label as cell data, and points in the image's physical space (LPS mm). What of the image
+ * the mesh lacks stands in GetWarnings() after Update(). The option "mixed" is refused, for ITK has no cell
+ * for its pyramids.
  *
  * Options are those of the command `cbc3d mesh`, by name: SetOption("max-distance", "1.5").
  *
  * \ingroup CBC3D
  */
 template <typename TInputImage, typename TOutputMesh = CBC3DMesh>
-class ITK_TEMPLATE_EXPORT CBC3DImageToMeshFilter : public ImageToMeshFilter<TInputImage, TOutputMesh>
-{
-public:
+class ITK_TEMPLATE_EXPORT CBC3DImageToMeshFilter : public ImageToMeshFilter<TInputImage, TOutputMesh> {
+ public:
   ITK_DISALLOW_COPY_AND_MOVE(CBC3DImageToMeshFilter);
 
   using Self = CBC3DImageToMeshFilter;
@@ -57,60 +57,43 @@ public:
   itkGetConstMacro(NumberOfThreads, int);
 
   /** Sets an option of the table by its name; the value is checked at once. Throws ExceptionObject. */
-  void
-  SetOption(const std::string & name, const std::string & value);
+  void SetOption(const std::string& name, const std::string& value);
 
   /** Takes all options back to the preset's. */
-  void
-  ClearOptions();
+  void ClearOptions();
 
   /** What the last mesh lacks of its image, one line each. */
-  const std::vector<std::string> &
-  GetWarnings() const
-  {
-    return m_Report.warnings;
-  }
+  const std::vector<std::string>& GetWarnings() const { return m_Report.warnings; }
 
   /** What happened on the way to the last mesh. */
-  const cbc3d::MeshImageReport &
-  GetReport() const
-  {
-    return m_Report;
-  }
+  const cbc3d::MeshImageReport& GetReport() const { return m_Report; }
 
-protected:
+ protected:
   CBC3DImageToMeshFilter() = default;
   ~CBC3DImageToMeshFilter() override = default;
 
-  void
-  GenerateData() override;
+  void GenerateData() override;
 
   /** A mesh is made of a whole image. */
-  void
-  GenerateInputRequestedRegion() override;
+  void GenerateInputRequestedRegion() override;
 
-  void
-  PrintSelf(std::ostream & os, Indent indent) const override;
+  void PrintSelf(std::ostream& os, Indent indent) const override;
 
-private:
-  cbc3d::ImageFrame
-  FrameOfInput();
-  cbc3d::Mesh
-  MeshInput();
-  void
-  SetPoints(const cbc3d::Mesh & mesh);
-  void
-  SetCells(const cbc3d::Mesh & mesh);
+ private:
+  cbc3d::ImageFrame FrameOfInput();
+  cbc3d::Mesh MeshInput();
+  void SetPoints(const cbc3d::Mesh& mesh);
+  void SetCells(const cbc3d::Mesh& mesh);
 
-  std::string              m_Preset{ "quality" };
-  int                      m_NumberOfThreads{ 0 };
-  cbc3d::OptionSettings    m_Options;
-  cbc3d::MeshImageReport   m_Report;
+  std::string m_Preset{"quality"};
+  int m_NumberOfThreads{0};
+  cbc3d::OptionSettings m_Options;
+  cbc3d::MeshImageReport m_Report;
 };
-} // namespace itk
+}  // namespace itk
 
 #ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkCBC3DImageToMeshFilter.hxx"
+#include "itkCBC3DImageToMeshFilter.hxx"
 #endif
 
 #endif

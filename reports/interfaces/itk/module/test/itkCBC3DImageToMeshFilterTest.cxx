@@ -1,4 +1,5 @@
-// Tetrahedra with labels in the image's physical space, for pixels of several types; options, progress, abortion, errors.
+// Tetrahedra with labels in the image's physical space, for pixels of several types; options, progress,
+// abortion, errors.
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -35,7 +36,8 @@ typename itk::Image<TPixel, 3>::Pointer two_balls() {
   direction(1, 0) = 1;
   image->SetDirection(direction);
   image->Allocate(true);
-  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it) {
+  for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd();
+       ++it) {
     const double x = it.GetIndex()[0] - 5.0, y = it.GetIndex()[1] + 2.0, z = 1.25 * it.GetIndex()[2];
     const auto within = [&](double cx) { return std::hypot(x - cx, y - 12, z - 12) < 8; };
     it.Set(within(11) ? 3 : within(20) ? 100 : 0);
@@ -47,7 +49,8 @@ typename itk::Image<TPixel, 3>::Pointer two_balls() {
 double six_volumes(const itk::CBC3DMesh& mesh, const itk::CBC3DMesh::CellType& cell) {
   const auto* ids = cell.GetPointIds();
   const auto origin = mesh.GetPoint(ids[0]);
-  const auto a = mesh.GetPoint(ids[1]) - origin, b = mesh.GetPoint(ids[2]) - origin, c = mesh.GetPoint(ids[3]) - origin;
+  const auto a = mesh.GetPoint(ids[1]) - origin, b = mesh.GetPoint(ids[2]) - origin,
+             c = mesh.GetPoint(ids[3]) - origin;
   return itk::CrossProduct(a, b) * c;
 }
 
@@ -64,7 +67,8 @@ void check_mesh() {
   bool positive = true, inside = true;
   auto label = mesh.GetCellData()->Begin();
   for (auto it = mesh.GetCells()->Begin(); it != mesh.GetCells()->End(); ++it, ++label) {
-    check(it.Value()->GetType() == itk::CommonEnums::CellGeometry::TETRAHEDRON_CELL, "the cells are tetrahedra");
+    check(it.Value()->GetType() == itk::CommonEnums::CellGeometry::TETRAHEDRON_CELL,
+          "the cells are tetrahedra");
     const double six = six_volumes(mesh, *it.Value());
     positive = positive && six > 0;
     volumes[label.Value()] += six / 6;
@@ -87,7 +91,8 @@ void check_warnings() {
   filter->SetPreset("paper");
   filter->Update();
   bool named = false;
-  for (const std::string& warning : filter->GetWarnings()) named = named || warning.find("42") != std::string::npos;
+  for (const std::string& warning : filter->GetWarnings())
+    named = named || warning.find("42") != std::string::npos;
   check(named, "a label that the mesh lacks is named");
 }
 
