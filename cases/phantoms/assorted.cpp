@@ -232,6 +232,20 @@ Mat3 drawn_direction(RandomSequence& random) {
   return Mat3::from_columns(a, b, kind < .05 ? -1.0 * c : c);
 }
 
+/// Leaves out the labels that no voxel has, for others hide them or they are too small.
+void drop_empty_labels(LabelImage& image) {
+  const std::vector<std::size_t> voxels = image.voxels_per_material();
+  std::vector<MaterialId> renumbered(voxels.size(), 0);
+  MaterialId kept = 0;
+  for (std::size_t m = 1; m < voxels.size(); ++m) {
+    if (voxels[m] > 0) renumbered[m] = ++kept;
+  }
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    image.voxels[v] = renumbered[image.voxels[v]];
+  }
+  image.labels.resize(kept + 1U);
+}
+
 /// Half of the images have gaps between their labels' values.
 void draw_labels(LabelImage& image, RandomSequence& random) {
   const int step = random.uniform(0, 1) < .5 ? 1 : static_cast<int>(random.uniform(2, 40));
@@ -251,6 +265,7 @@ LabelImage assorted_phantom(const Index3& size, const Vec3& spacing_mm, std::uin
   Draw draw{drawn, spacing, random, seed};
   LabelImage image = kShapes.at(seed % kShapes.size())(draw);
   make_well_composed(image);
+  drop_empty_labels(image);
   draw_labels(image, draw.random);
   image.frame.direction = direction;
   image.frame.origin_mm = origin;

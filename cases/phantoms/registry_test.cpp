@@ -165,8 +165,10 @@ TEST_P(EveryPhantom, DependsOnItsArgumentsAlone) {
   set_thread_count(0);
   EXPECT_EQ(one.voxels, two.voxels);
   EXPECT_EQ(one.labels, two.labels);
-  EXPECT_EQ(one.frame.size, phantom.size);
-  EXPECT_EQ(one.frame.spacing_mm, phantom.spacing_mm);
+  if (phantom.name != "assorted") {  // which draws them, see assorted_test.cpp
+    EXPECT_EQ(one.frame.size, phantom.size);
+    EXPECT_EQ(one.frame.spacing_mm, phantom.spacing_mm);
+  }
   for (const std::size_t voxels : one.voxels_per_material()) {
     EXPECT_GT(voxels, 0U);
   }

@@ -170,6 +170,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
     stages[name] = seconds;
   }
   std::vector<std::string> warnings;
+  warnings.reserve(report.warnings.size());
   for (const std::string& warning : report.warnings) {
     warnings.push_back(with_names(warning, run.names));
   }

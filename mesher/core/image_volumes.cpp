@@ -51,13 +51,13 @@ std::string range_of(std::size_t count) {
   return "from 0 to " + std::to_string(count - 1);
 }
 
-std::size_t chosen(const char* kind, std::optional<int> number, std::size_t count) {
-  if (*number < 0 || static_cast<std::size_t>(*number) >= count) {
+std::size_t chosen(const char* kind, int number, std::size_t count) {
+  if (number < 0 || static_cast<std::size_t>(number) >= count) {
     throw FormatError(
-        "it has no " + std::string(kind) + " " + std::to_string(*number) +
+        "it has no " + std::string(kind) + " " + std::to_string(number) +
         (count == 1 ? ", for it has one alone; leave the choice out" : "; choose one " + range_of(count)));
   }
-  return static_cast<std::size_t>(*number);
+  return static_cast<std::size_t>(number);
 }
 
 [[noreturn]] void refuse_volumes(const ImageHeader& header, const FileVoxels& voxels) {
@@ -286,7 +286,7 @@ FileVoxels one_value_per_voxel(ImageHeader& header, FileVoxels voxels, const Rea
     throw FormatError("it names no segments and so has no layers; leave the choice out or use volume=N");
   }
   const auto choice = has_layers ? options.layer : options.volume;
-  const std::size_t number = choice ? chosen(has_layers ? "layer" : "volume", choice, header.volumes) : 0;
+  const std::size_t number = choice ? chosen(has_layers ? "layer" : "volume", *choice, header.volumes) : 0;
   if (header.volumes == 1) {
     return voxels;
   }

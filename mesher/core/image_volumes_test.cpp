@@ -34,6 +34,7 @@ class ImageVolumes : public testing::Files {
   }
   [[nodiscard]] std::vector<Label> labels_along_x(const LabelImage& image) const {
     std::vector<Label> labels;
+    labels.reserve(image.voxels.size());
     for (std::size_t v = 0; v < image.voxels.size(); ++v) {
       labels.push_back(image.labels[image.voxels[v]]);
     }

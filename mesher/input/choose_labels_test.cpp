@@ -25,6 +25,7 @@ class ChooseLabels : public ::testing::Test {
     warnings_.clear();
     choose_labels(changed, names_, choice, "'a.nrrd'", warnings_);
     std::vector<Label> labels;
+    labels.reserve(4);
     for (std::size_t v = 0; v < 4; ++v) {
       labels.push_back(changed.labels[changed.voxels[v]]);
     }

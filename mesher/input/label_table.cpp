@@ -76,8 +76,9 @@ Cells cells_of(std::string_view line, char separator) {
 
 /// Places of the columns; the colour is one column or three.
 struct Columns {
-  std::optional<std::size_t> label, name, colour;
-  std::vector<std::size_t> red_green_blue;
+  std::size_t label = 0, name = 0;
+  std::optional<std::size_t> colour = std::nullopt;
+  std::vector<std::size_t> red_green_blue{};
 };
 
 /// Without blanks, hyphens and underscores, in lower case.
@@ -102,15 +103,17 @@ std::optional<std::size_t> find_column(const Cells& names, std::initializer_list
 
 Columns named_columns(Cells names, const TableRows& rows) {
   std::transform(names.begin(), names.end(), names.begin(), plain);
-  Columns columns;
-  columns.label =
+  const auto label =
       find_column(names, {"index", "labelvalue", "value", "labelid", "id", "number", "no", "label"});
-  columns.name =
-      find_column(names, {"name", "labelname", "structure", "segment", "region", "label"}, columns.label);
-  if (!columns.label || !columns.name) {
-    rows.fail(std::string("names no column ") + (columns.label ? "'name'" : "'index'") +
+  const auto name =
+      find_column(names, {"name", "labelname", "structure", "segment", "region", "label"}, label);
+  if (!label || !name) {
+    rows.fail(std::string("names no column ") + (label ? "'name'" : "'index'") +
               "; write a first line with index, name and color");
   }
+  Columns columns;
+  columns.label = *label;
+  columns.name = *name;
   columns.colour = find_column(names, {"color", "colour", "hex"});
   const auto red = find_column(names, {"r", "red", "colorr"}),
              green = find_column(names, {"g", "green", "colorg"}),
@@ -147,21 +150,23 @@ std::optional<Colour> colour_of(const Cells& cells, const Columns& columns, cons
 }
 
 void take_columns(const std::vector<Line>& lines, char separator, TableRows& rows) {
-  std::optional<Columns> columns;
+  Columns columns;
+  bool known = false;
   for (const Line& line : lines) {
     rows.begin_line(line.number, line.text);
     const Cells cells = cells_of(line.text, separator);
-    if (!columns) {
+    if (!known) {
+      known = true;
       const bool has_names = !to_number(trimmed(cells[0]));
       columns = has_names ? named_columns(cells, rows) : columns_by_place(cells.size());
       if (has_names) {
         continue;
       }
     }
-    if (std::max(*columns->label, *columns->name) >= cells.size()) {
+    if (std::max(columns.label, columns.name) >= cells.size()) {
       rows.fail("has " + std::to_string(cells.size()) + " columns, too few; write label, name and colour");
     }
-    rows.add(cells[*columns->label], cells[*columns->name], colour_of(cells, *columns, rows));
+    rows.add(cells[columns.label], cells[columns.name], colour_of(cells, columns, rows));
   }
 }
 
@@ -229,7 +234,7 @@ void take_objects(const json& list, TableRows& rows) {
       values.push_back(text_of(value));
     }
     const Columns columns = named_columns(keys, rows);
-    rows.add(values[*columns.label], values[*columns.name], colour_of(values, columns, rows));
+    rows.add(values[columns.label], values[columns.name], colour_of(values, columns, rows));
   }
 }
 

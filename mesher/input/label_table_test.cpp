@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <optional>
+
 #include <random>
 
 #include "mesher/core/error.hpp"
@@ -16,13 +19,13 @@ LabelNames parse(const std::string& text, const std::string& extension) {
   return parse_label_table(text, "cannot read 'a'", extension);
 }
 
+using Rgb = std::array<std::uint8_t, 3>;
+constexpr Rgb kOrange{200, 80, 0};
+
 void expect_lung(const LabelNames& names, bool with_colour = true) {
   EXPECT_EQ(names.text(5), "right lung (5)");
   ASSERT_NE(names.find(5), nullptr);
-  EXPECT_EQ(names.find(5)->colour.has_value(), with_colour);
-  if (with_colour) {
-    EXPECT_EQ(*names.find(5)->colour, (std::array<std::uint8_t, 3>{200, 80, 0}));
-  }
+  EXPECT_EQ(names.find(5)->colour, with_colour ? std::optional(kOrange) : std::nullopt);
 }
 
 void expect_refusal(const std::string& text, const std::string& extension, const std::string& words) {
@@ -80,8 +83,11 @@ TEST(LabelTable, OfJson) {
 }
 
 TEST(LabelTable, ColoursAreHexadecimalNumbersOrFractions) {
-  EXPECT_EQ(*parse("1 a 1.0 0.5 0.0\n", ".txt").find(1)->colour, (std::array<std::uint8_t, 3>{255, 128, 0}));
-  EXPECT_EQ(*parse("1,a,#0102037f\n", ".csv").find(1)->colour, (std::array<std::uint8_t, 3>{1, 2, 3}));
+  const auto colour_in = [](const std::string& text, const std::string& extension) {
+    return parse(text, extension).find(1)->colour;
+  };
+  EXPECT_EQ(colour_in("1 a 1.0 0.5 0.0\n", ".txt"), std::optional(Rgb{255, 128, 0}));
+  EXPECT_EQ(colour_in("1,a,#0102037f\n", ".csv"), std::optional(Rgb{1, 2, 3}));
 }
 
 TEST(LabelTable, NamesInLatin1BecomeUtf8) {

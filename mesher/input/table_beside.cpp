@@ -35,7 +35,7 @@ std::set<std::string> parts_of(const std::string& name) {
 
 /// The table of the folder that applies to an image with these parts of its name.
 std::optional<fs::path> table_of_folder(const fs::path& folder, const std::set<std::string>& image) {
-  std::optional<fs::path> best;
+  fs::path best;
   std::size_t most = 0;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -47,12 +47,12 @@ std::optional<fs::path> table_of_folder(const fs::path& folder, const std::set<s
     const bool applies =
         parts.contains("dseg") && std::includes(image.begin(), image.end(), parts.begin(), parts.end());
     // Of two with as many entities the first by name is taken, whatever order the folder has.
-    if (applies && (parts.size() > most || (parts.size() == most && entry.path() < *best))) {
+    if (applies && (parts.size() > most || (parts.size() == most && entry.path() < best))) {
       most = parts.size();
       best = entry.path();
     }
   }
-  return best;
+  return best.empty() ? std::nullopt : std::optional(best);
 }
 
 std::optional<fs::path> bids_table(const fs::path& image, const std::string& stem) {
@@ -80,7 +80,7 @@ std::optional<fs::path> bids_table(const fs::path& image, const std::string& ste
 std::optional<fs::path> table_beside(const fs::path& image) {
   const std::string stem = stem_of(image);
   for (const char* const extension : {".tsv", ".label", ".ctbl", ".csv", ".txt"}) {
-    const fs::path table = image.parent_path() / (stem + extension);
+    fs::path table = image.parent_path() / (stem + extension);
     if (is_file(table)) {
       return table;
     }

@@ -45,6 +45,7 @@ struct ProgramOutcome {
 
 inline ProgramOutcome run_program(const std::string& command) {
   std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return {.exit_code = 127, .text = "the shell could not be started"};
   std::string text;
   std::array<char, 4096> buffer;
   while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();

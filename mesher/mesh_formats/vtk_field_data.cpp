@@ -8,6 +8,7 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace cbc3d {
@@ -36,9 +37,11 @@ void add_colours(vtkFieldData& fields, const LabelNames& names) {
   colours->SetName(kColours);
   colours->SetNumberOfComponents(3);
   for (const NamedLabel& named : names.entries()) {
-    for (std::size_t n = 0; n < 3; ++n) {
-      colours->InsertNextValue(named.colour ? (*named.colour)[n] : -1);
+    std::array<int, 3> colour{-1, -1, -1};
+    if (named.colour) {
+      std::copy(named.colour->begin(), named.colour->end(), colour.begin());
     }
+    colours->InsertNextTypedTuple(colour.data());
   }
   fields.AddArray(colours);
 }

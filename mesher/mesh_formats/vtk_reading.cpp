@@ -12,6 +12,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -88,10 +89,11 @@ StatedArrays arrays_of(const MeshFileOptions& stated) {
     arrays.labels.push_back(named.label);
     arrays.names.insert(arrays.names.end(), named.name.begin(), named.name.end());
     arrays.names.push_back('\n');
-    for (std::size_t n = 0; n < 3; ++n) {
-      arrays.colours.push_back(named.colour ? static_cast<std::int16_t>((*named.colour)[n])
-                                            : std::int16_t{-1});
+    std::array<std::int16_t, 3> colour{-1, -1, -1};
+    if (named.colour) {
+      std::copy(named.colour->begin(), named.colour->end(), colour.begin());
     }
+    arrays.colours.insert(arrays.colours.end(), colour.begin(), colour.end());
   }
   arrays.coordinates.assign(stated.coordinates.begin(), stated.coordinates.end());
   return arrays;

@@ -140,7 +140,8 @@ ImageFrame frame_of(const Index3& size, const std::array<double, 3>& spacing_mm,
   frame.origin_mm = {origin_mm[0], origin_mm[1], origin_mm[2]};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      frame.direction(row, column) = direction[static_cast<std::size_t>(3 * row + column)];
+      frame.direction(row, column) =
+          direction[3 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)];
     }
   }
   return frame;

@@ -1,8 +1,10 @@
 // The extension `cbc3d._core`.
 #include <pybind11/pybind11.h>
+#include <utility>
 
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "mesher/core/error.hpp"
 #include "mesher/pipeline/presets.hpp"
@@ -45,7 +47,7 @@ void raise_input_error(const InputError& error) {
 
 void translate(std::exception_ptr thrown) {
   try {
-    std::rethrow_exception(thrown);
+    std::rethrow_exception(std::move(thrown));
   } catch (const InputError& error) {
     raise_input_error(error);
   } catch (const JobError& error) {
