@@ -1,6 +1,5 @@
 // The extension `cbc3d._core`.
 #include <pybind11/pybind11.h>
-#include <utility>
 
 #include <exception>
 #include <string>
