@@ -251,9 +251,10 @@ std::vector<Case> read_cases(const fs::path& file) {
   std::vector<Case> cases(instances.get<std::size_t>(), one);
   for (std::size_t n = 0; n < cases.size(); ++n) {
     const std::string number = std::to_string(n);
-    cases[n].name += "-" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
-    cases[n].title += " (" + number + ")";
-    cases[n].phantom->seed += n;
+    Case& instance = cases[n];
+    instance.name += "-" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
+    instance.title += " (" + number + ")";
+    if (instance.phantom) instance.phantom->seed += n;
   }
   return cases;
 }

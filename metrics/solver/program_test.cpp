@@ -22,6 +22,7 @@ struct Outcome {
 
 Outcome run(const std::string& command) {
   std::FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return {-1, "the shell could not be started"};
   std::string output;
   std::array<char, 4096> buffer{};
   while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {

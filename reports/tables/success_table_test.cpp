@@ -23,6 +23,7 @@ Json good_line(int n, const std::string& mesher) {
 
 std::vector<Json> twenty_of(const std::string& mesher) {
   std::vector<Json> lines;
+  lines.reserve(20);
   for (int n = 0; n < 20; ++n) lines.push_back(good_line(n, mesher));
   return lines;
 }
