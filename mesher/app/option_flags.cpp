@@ -7,22 +7,6 @@
 namespace cbc3d {
 namespace {
 
-std::string heading(OptionGroup group) {
-  switch (group) {
-    case OptionGroup::cleaning:
-      return "Image pre-processing";
-    case OptionGroup::lattice:
-      return "Lattice and its refinement";
-    case OptionGroup::mixed:
-      return "Mixed elements";
-    case OptionGroup::improvement:
-      return "Improvement";
-    case OptionGroup::deformation:
-      return "Deformation";
-  }
-  return "";
-}
-
 /// A default under the label of its column.
 using Entry = std::pair<std::string, std::string>;
 

@@ -97,6 +97,9 @@ void apply_settings(const OptionSettings& settings, MeshImageOptions& options);
 /// Throws OptionError when an option has a number for a label that the image lacks.
 void require_known_labels(const MeshImageOptions& options, const LabelImage& image);
 
+/// What users see over the options of a group: "Lattice and its refinement".
+std::string heading(OptionGroup group);
+
 /// "in (0, 1]", "above 0", "true or false", "none, holes, specks or both": what the option takes.
 std::string range_text(const OptionRow& row);
 

@@ -193,5 +193,15 @@ TEST(OptionSettings, ALabelThatTheImageLacksIsNamed) {
   }
 }
 
+TEST(OptionTable, EveryGroupHasAHeadingOfItsOwn) {
+  std::set<std::string> headings;
+  for (const OptionGroup group : {OptionGroup::cleaning, OptionGroup::lattice, OptionGroup::mixed,
+                                  OptionGroup::improvement, OptionGroup::deformation}) {
+    EXPECT_NE(heading(group), "");
+    headings.insert(heading(group));
+  }
+  EXPECT_EQ(headings.size(), 5U);
+}
+
 }  // namespace
 }  // namespace cbc3d

@@ -195,6 +195,22 @@ void require_known_labels(const MeshImageOptions& options, const LabelImage& ima
   }
 }
 
+std::string heading(OptionGroup group) {
+  switch (group) {
+    case OptionGroup::cleaning:
+      return "Image pre-processing";
+    case OptionGroup::lattice:
+      return "Lattice and its refinement";
+    case OptionGroup::mixed:
+      return "Mixed elements";
+    case OptionGroup::improvement:
+      return "Improvement";
+    case OptionGroup::deformation:
+      return "Deformation";
+  }
+  return "";
+}
+
 std::string range_text(const OptionRow& row) {
   switch (row.kind) {
     case OptionKind::on_off:

@@ -57,22 +57,6 @@ const char* kind_text(OptionKind kind) {
   return "";
 }
 
-const char* group_text(OptionGroup group) {
-  switch (group) {
-    case OptionGroup::cleaning:
-      return "Image pre-processing";
-    case OptionGroup::lattice:
-      return "Lattice and its refinement";
-    case OptionGroup::mixed:
-      return "Mixed elements";
-    case OptionGroup::improvement:
-      return "Improvement";
-    case OptionGroup::deformation:
-      return "Deformation";
-  }
-  return "";
-}
-
 py::dict defaults_of(const OptionRow& row) {
   const ImageFrame frame;  // of voxels of 1 mm
   py::dict defaults;
@@ -103,9 +87,9 @@ py::list option_rows() {
   py::list rows;
   for (const OptionRow& row : option_table()) {
     rows.append(py::dict("keyword"_a = keyword_of(row.name), "flag"_a = "--" + row.name,
-                         "group"_a = group_text(row.group), "kind"_a = kind_text(row.kind),
-                         "unit"_a = row.unit, "range"_a = range_text(row), "choices"_a = row.choices,
-                         "text"_a = row.text, "defaults"_a = defaults_of(row)));
+                         "group"_a = heading(row.group), "kind"_a = kind_text(row.kind), "unit"_a = row.unit,
+                         "range"_a = range_text(row), "choices"_a = row.choices, "text"_a = row.text,
+                         "defaults"_a = defaults_of(row)));
   }
   return rows;
 }

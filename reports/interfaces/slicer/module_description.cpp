@@ -160,21 +160,15 @@ std::string first_group() {
          "  </parameters>\n";
 }
 
-struct FoldedGroup {
-  OptionGroup group;
-  const char* label;
-};
-constexpr FoldedGroup kFolded[] = {{OptionGroup::cleaning, "Image pre-processing"},
-                                   {OptionGroup::lattice, "Lattice and its refinement"},
-                                   {OptionGroup::improvement, "Improvement"},
-                                   {OptionGroup::deformation, "Deformation (preset paper)"}};
+constexpr OptionGroup kFolded[] = {OptionGroup::cleaning, OptionGroup::lattice, OptionGroup::improvement,
+                                   OptionGroup::deformation};
 
-std::string folded_group(const FoldedGroup& folded) {
-  std::string text = "  <parameters advanced=\"true\">\n    <label>" + escaped(folded.label) +
+std::string folded_group(OptionGroup folded) {
+  std::string text = "  <parameters advanced=\"true\">\n    <label>" + escaped(heading(folded)) +
                      "</label>\n    <description>Options of this part of the method</description>\n";
   const auto& first = first_options();
   for (const OptionRow& row : option_table()) {
-    if (row.group == folded.group && std::find(first.begin(), first.end(), row.name) == first.end()) {
+    if (row.group == folded && std::find(first.begin(), first.end(), row.name) == first.end()) {
       text += parameter_of(row);
     }
   }
@@ -220,7 +214,7 @@ std::string module_description(const std::string& version) {
       "Drakopoulos "
       "et al., Image-To-Mesh Conversion for Biomedical Simulations.</acknowledgements>\n" +
       files_group() + first_group();
-  for (const FoldedGroup& folded : kFolded) {
+  for (const OptionGroup folded : kFolded) {
     text += folded_group(folded);
   }
   return text + "</executable>\n";
