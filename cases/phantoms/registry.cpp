@@ -50,7 +50,7 @@ constexpr std::array<PhantomKind, 10> kKinds{{
      "another image for each seed: of ten kinds, up to the given size, with other voxels, frames and labels",
      {44, 44, 44},
      {1, 1, 1},
-     1,
+     2,
      assorted_phantom},
     {"aneurysm",
      "carotid artery with its branches and a saccular aneurysm (1)",

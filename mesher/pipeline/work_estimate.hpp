@@ -21,15 +21,15 @@ struct BoundaryKinds {
 };
 BoundaryKinds boundary_kinds_of(const LabelImage& image);
 
-/// Seconds of CPU that the default preset takes: a sum over the kinds, whose weights were fitted to the
-/// logarithms of what thirty images took: segmentations, phantoms, grids of wires and walls, blocks,
-/// checkerboards. They took from a third to three times of it. Thin parts, junctions and contacts cost the
-/// most, since the lattice is split below the voxel there.
+/// Seconds of CPU that the default preset takes, roughly: a sum over the kinds, whose weights were fitted to
+/// the logarithms of what 29 images took on a busy machine: segmentations, phantoms, grids of wires and
+/// walls, blocks, checkerboards. They took from .3 to 3.4 times of it. Thin parts, junctions and contacts
+/// cost the most, since the lattice is split below the voxel there.
 double estimated_cpu_seconds(const BoundaryKinds& kinds, const ImageFrame& frame);
 
 /// A file smaller than this that asks for more work than that is more often a mistake, or made to keep a
-/// machine busy, than a wish. Of segmentations of organs, vessels and bones none is as small and takes as
-/// long.
+/// machine busy, than a wish. The size is set so that a real stent of 39 KB, which takes as long, passes.
+/// This bounds the work by an estimate alone: an accepted file may take a few times as long.
 inline constexpr std::uintmax_t kSmallFileBytes = 16384;
 inline constexpr double kSmallFileCpuSeconds = 30;
 
