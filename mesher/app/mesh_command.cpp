@@ -51,17 +51,23 @@ void write_failure(const MeshCommand& command, const char* status, const std::st
   }
 }
 
+/// The paper's preset makes elements a hundred times as fast, so it needs no such consent.
+bool is_work_limited(const MeshCommand& command) {
+  return !command.long_work && command.preset == preset_names().front() &&
+         file_bytes_of_image(command.image) < kSmallFileBytes;
+}
+
 MeshImageOptions options_of(const MeshCommand& command, const LabelImage& image) {
   MeshImageOptions options = preset_options(command.preset, image.frame);
   apply_settings(command.settings, options);
   require_known_labels(options, image);
   options.dump_stages = command.dump_stages;
+  options.work_limit_s = is_work_limited(command) ? kSmallFileWorkSeconds : 0;
   return options;
 }
 
-/// The paper's preset makes elements a hundred times as fast, so it needs no such consent.
 void require_expected_work(const MeshCommand& command, const LabelImage& image) {
-  if (command.long_work || command.preset != preset_names().front()) return;
+  if (!is_work_limited(command)) return;
   const std::string reason = why_long_work(image, file_bytes_of_image(command.image));
   if (!reason.empty()) {
     throw InputError("'" + command.image + "': " + reason + "; if that is meant, long_work takes it");

@@ -12,6 +12,7 @@
 #include "mesher/lattice/part_raster.hpp"
 #include "mesher/lattice/red_green.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
+#include "mesher/pipeline/work_estimate.hpp"
 
 namespace cbc3d {
 namespace {
@@ -335,6 +336,18 @@ void improve_stage(MaterialMesh& mesh, const ImageDomain& domain, const MeshImag
   warn_of_elements(options, mesh.cell_count(), report);
 }
 
+void require_work_within_limit(double limit_s, std::size_t tets_of_rounds, std::size_t tets) {
+  if (limit_s > 0 && work_of_lattice_s(tets_of_rounds, tets) > limit_s) {
+    char text[160];
+    std::snprintf(
+        text, sizeof(text),
+        "the lattice needs %zu tets or more, which foretell more than the limit of %.0f s of CPU; if "
+        "that is meant, long_work lifts it",
+        tets, limit_s);
+    throw InputError(text, "work_limit_s");
+  }
+}
+
 /// From the clean image to the mesh in local mm.
 MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions& options, StageLog& log,
                               const Progress& progress, MeshImageReport& report) {
@@ -350,8 +363,10 @@ MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions&
     scale_lengths(options.edge_length_mm / (tolerances::kEdgesPerReach * refine.max_distance_mm), refine,
                   improve);
   }
+  std::size_t tets_of_rounds = 0;
   report.refine = log.run("adaptive_refinement", 0.1, [&] {
     return refine_for(lattice, domain, options, refine, improve, [&](int round, std::size_t tets) {
+      require_work_within_limit(options.work_limit_s, tets_of_rounds += tets, tets);
       progress.step(
           "adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
           std::min(0.5, 0.1 + 0.03 * round));

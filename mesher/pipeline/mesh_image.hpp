@@ -40,6 +40,9 @@ struct MeshImageOptions {
   DeformOptions deform;
   ImproveOptions improve;
   std::filesystem::path dump_stages;  ///< folder for the mesh after each stage; empty: none is written
+  /// Seconds of CPU that the number of the lattice's tets may foretell (work_of_lattice_s) before the work
+  /// ends with an InputError; 0: any. It depends on the image and the options alone, as no clock does.
+  double work_limit_s = 0;
 };
 
 /// A voxel around which a label's topology may have become another than the cleaned image's.

@@ -86,6 +86,11 @@ double estimated_cpu_seconds(const BoundaryKinds& kinds, const ImageFrame& frame
   return 1e-6 * microseconds * cube_faces_per_voxel_face(frame);
 }
 
+double work_of_lattice_s(std::size_t tets_of_rounds, std::size_t tets) {
+  constexpr double kRoundSeconds = 2e-6, kImproveSeconds = 25e-6;
+  return kRoundSeconds * static_cast<double>(tets_of_rounds) + kImproveSeconds * static_cast<double>(tets);
+}
+
 std::string why_long_work(const LabelImage& image, std::uintmax_t file_bytes) {
   if (file_bytes >= kSmallFileBytes) return "";
   const double seconds = estimated_cpu_seconds(boundary_kinds_of(image), image.frame);

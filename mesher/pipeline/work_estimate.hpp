@@ -29,9 +29,15 @@ double estimated_cpu_seconds(const BoundaryKinds& kinds, const ImageFrame& frame
 
 /// A file smaller than this that asks for more work than that is more often a mistake, or made to keep a
 /// machine busy, than a wish. The size is set so that a real stent of 39 KB, which takes as long, passes.
-/// This bounds the work by an estimate alone: an accepted file may take a few times as long.
+/// The estimate errs by a few times, so a file that passes is held to kSmallFileWorkSeconds by count.
 inline constexpr std::uintmax_t kSmallFileBytes = 16384;
 inline constexpr double kSmallFileCpuSeconds = 30;
+inline constexpr double kSmallFileWorkSeconds = 60;
+
+/// Seconds of CPU that a lattice of `tets` stands for whose rounds had `tets_of_rounds` in all: two
+/// microseconds for each tet in each round and 25 for its improvement, as they were on layers one voxel
+/// thick, the slowest image known.
+double work_of_lattice_s(std::size_t tets_of_rounds, std::size_t tets);
 
 /// Why the file asks for more work than its size lets one expect; empty where it does not.
 std::string why_long_work(const LabelImage& image, std::uintmax_t file_bytes);

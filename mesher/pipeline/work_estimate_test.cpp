@@ -4,6 +4,9 @@
 
 #include <functional>
 
+#include "mesher/core/error.hpp"
+#include "mesher/pipeline/mesh_image.hpp"
+#include "mesher/pipeline/presets.hpp"
 #include "mesher/testing/test_images.hpp"
 
 namespace cbc3d {
@@ -60,6 +63,19 @@ TEST(WorkEstimate, OnlySmallFilesAreAskedAbout) {
   EXPECT_NE(why_long_work(walls, 1000), "");
   EXPECT_EQ(why_long_work(walls, kSmallFileBytes), "");
   EXPECT_EQ(why_long_work(boxed({5, 5, 5}), 100), "");
+}
+
+TEST(WorkEstimate, TheLimitHoldsWhateverTheEstimateSaid) {
+  const LabelImage box = boxed({6, 6, 6});
+  const auto cells_within = [&box](double limit_s) {
+    MeshImageOptions options = preset_options(preset_names().front(), box.frame);
+    options.work_limit_s = limit_s;
+    MeshImageReport report;
+    return mesh_image(box, options, {}, report).cell_count();
+  };
+  EXPECT_THROW(cells_within(1e-3), InputError);
+  EXPECT_EQ(cells_within(1000), cells_within(0));
+  EXPECT_DOUBLE_EQ(work_of_lattice_s(5'000'000, 2'000'000), 60);
 }
 
 }  // namespace
