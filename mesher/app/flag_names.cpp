@@ -12,7 +12,7 @@ namespace {
 
 using Replacement = std::pair<std::string, std::string>;
 
-/// What is no option's name: two ordinary words, a switch that is named by its effect, and options of
+/// What is no option's name: two ordinary words, switches that are named by their effect, and options of
 /// `segment`, of `improve` and of the reading of images.
 const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifold-voxels"},
                                            {"connectivity vertex", "--connectivity vertex"},
@@ -22,6 +22,7 @@ const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifol
                                            {"round_values", "--round"},
                                            {"many_labels", "--many-labels"},
                                            {"long_work", "--long-work"},
+                                           {"a larger work_limit_s, or 0,", "--long-work"},
                                            {"label_array", "--label-array"},
                                            {"volume=N", "--volume N"},
                                            {"layer=N", "--layer N"}};

@@ -51,10 +51,10 @@ void write_failure(const MeshCommand& command, const char* status, const std::st
   }
 }
 
-/// The paper's preset makes elements a hundred times as fast, so it needs no such consent.
-bool is_work_limited(const MeshCommand& command) {
-  return !command.long_work && command.preset == preset_names().front() &&
-         file_bytes_of_image(command.image) < kSmallFileBytes;
+/// Long work needs the user's consent, but for the paper's preset, which makes elements a hundred times as
+/// fast.
+bool needs_consent(const MeshCommand& command) {
+  return !command.long_work && command.preset == preset_names().front();
 }
 
 MeshImageOptions options_of(const MeshCommand& command, const LabelImage& image) {
@@ -62,12 +62,14 @@ MeshImageOptions options_of(const MeshCommand& command, const LabelImage& image)
   apply_settings(command.settings, options);
   require_known_labels(options, image);
   options.dump_stages = command.dump_stages;
-  options.work_limit_s = is_work_limited(command) ? kSmallFileWorkSeconds : 0;
+  if (needs_consent(command)) {
+    options.work_limit_s = work_limit_s(file_bytes_of_image(command.image), command.settings);
+  }
   return options;
 }
 
 void require_expected_work(const MeshCommand& command, const LabelImage& image) {
-  if (!is_work_limited(command)) return;
+  if (!needs_consent(command)) return;
   const std::string reason = why_long_work(image, file_bytes_of_image(command.image));
   if (!reason.empty()) {
     throw InputError("'" + command.image + "': " + reason + "; if that is meant, long_work takes it");
@@ -77,6 +79,17 @@ void require_expected_work(const MeshCommand& command, const LabelImage& image) 
 void from_lps(QuadraticMesh& mesh, const std::string& coordinates, const ImageFrame& frame) {
   if (cbc3d::from_lps(mesh.points, coordinates, &frame)) {
     flip_orientation(mesh);
+  }
+}
+
+/// Names the file in what `work` says when it ends by the limit.
+template <typename Work>
+Mesh naming_image(const std::string& image, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    if (error.parameter() != "work_limit_s") throw;
+    throw InputError("'" + image + "': " + error.what(), error.parameter());
   }
 }
 
@@ -108,7 +121,9 @@ void run(MeshCommand& command) {
                              .reading_seconds = reading.seconds()};
   MeshImageReport report;
   QuadraticMesh quadratic;
-  Mesh mesh = mesh_in_order(std::move(image), description, progress, report, quadratic);
+  Mesh mesh = naming_image(command.image, [&] {
+    return mesh_in_order(std::move(image), description, progress, report, quadratic);
+  });
   report.warnings.insert(report.warnings.begin(), command.input.warnings.begin(),
                          command.input.warnings.end());
   for (std::string& finding : mesh_findings(mesh, report, description.frame)) {

@@ -336,13 +336,14 @@ void improve_stage(MaterialMesh& mesh, const ImageDomain& domain, const MeshImag
   warn_of_elements(options, mesh.cell_count(), report);
 }
 
+/// Throws InputError beyond the limit, which 0 is not.
 void require_work_within_limit(double limit_s, std::size_t tets_of_rounds, std::size_t tets) {
   if (limit_s > 0 && work_of_lattice_s(tets_of_rounds, tets) > limit_s) {
     char text[160];
     std::snprintf(
         text, sizeof(text),
-        "the lattice needs %zu tets or more, which foretell more than the limit of %.0f s of CPU; if "
-        "that is meant, long_work lifts it",
+        "the lattice needs %zu tets or more, which foretell more than %.0f s of CPU; if that is meant, a "
+        "larger work_limit_s, or 0, lifts the limit",
         tets, limit_s);
     throw InputError(text, "work_limit_s");
   }

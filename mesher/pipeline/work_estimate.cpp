@@ -86,6 +86,14 @@ double estimated_cpu_seconds(const BoundaryKinds& kinds, const ImageFrame& frame
   return 1e-6 * microseconds * cube_faces_per_voxel_face(frame);
 }
 
+double work_limit_s(std::uintmax_t file_bytes, const OptionSettings& settings) {
+  const bool asks_for_sizes = std::any_of(settings.begin(), settings.end(), [](const auto& setting) {
+    const OptionGroup group = find_option(setting.first).group;
+    return group == OptionGroup::lattice || group == OptionGroup::improvement;
+  });
+  return file_bytes < kSmallFileBytes && !asks_for_sizes ? kSmallFileWorkLimit : 0;
+}
+
 double work_of_lattice_s(std::size_t tets_of_rounds, std::size_t tets) {
   constexpr double kRoundSeconds = 2e-6, kImproveSeconds = 25e-6;
   return kRoundSeconds * static_cast<double>(tets_of_rounds) + kImproveSeconds * static_cast<double>(tets);

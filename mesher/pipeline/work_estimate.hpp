@@ -10,6 +10,7 @@
 #include <string>
 
 #include "mesher/core/label_image.hpp"
+#include "mesher/pipeline/option_table.hpp"
 
 namespace cbc3d {
 
@@ -29,14 +30,18 @@ double estimated_cpu_seconds(const BoundaryKinds& kinds, const ImageFrame& frame
 
 /// A file smaller than this that asks for more work than that is more often a mistake, or made to keep a
 /// machine busy, than a wish. The size is set so that a real stent of 39 KB, which takes as long, passes.
-/// The estimate errs by a few times, so a file that passes is held to kSmallFileWorkSeconds by count.
+/// The estimate errs by a few times, so the lattice of a file that passes is held to a work limit too.
 inline constexpr std::uintmax_t kSmallFileBytes = 16384;
 inline constexpr double kSmallFileCpuSeconds = 30;
-inline constexpr double kSmallFileWorkSeconds = 60;
+inline constexpr double kSmallFileWorkLimit = 60;  ///< s
 
-/// Seconds of CPU that a lattice of `tets` stands for whose rounds had `tets_of_rounds` in all: two
-/// microseconds for each tet in each round and 25 for its improvement, as they were on layers one voxel
-/// thick, the slowest image known.
+/// MeshImageOptions::work_limit_s for a file of so many bytes: none (0) where it is not small, nor where an
+/// option of the lattice or the improvement is set: who asks for small elements means the work.
+double work_limit_s(std::uintmax_t file_bytes, const OptionSettings& settings);
+
+/// Seconds of CPU that a lattice foretells which has `tets` now and had `tets_of_rounds` in all rounds
+/// together: 2 microseconds for each tet and round and 25 for each tet's improvement. Both were measured,
+/// roughly, on layers one voxel thick, the slowest image known.
 double work_of_lattice_s(std::size_t tets_of_rounds, std::size_t tets);
 
 /// Why the file asks for more work than its size lets one expect; empty where it does not.

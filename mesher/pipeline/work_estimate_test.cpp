@@ -65,6 +65,15 @@ TEST(WorkEstimate, OnlySmallFilesAreAskedAbout) {
   EXPECT_EQ(why_long_work(boxed({5, 5, 5}), 100), "");
 }
 
+TEST(WorkEstimate, SmallFilesHaveALimitUnlessOptionsAskForSizes) {
+  EXPECT_EQ(work_limit_s(kSmallFileBytes - 1, {}), kSmallFileWorkLimit);
+  EXPECT_EQ(work_limit_s(kSmallFileBytes, {}), 0);
+  EXPECT_EQ(work_limit_s(100, {{"mixed", true}}), kSmallFileWorkLimit);
+  for (const char* name : {"elements", "edge-length", "max-distance", "size"}) {
+    EXPECT_EQ(work_limit_s(100, {{name, std::string("1")}}), 0) << name;
+  }
+}
+
 TEST(WorkEstimate, TheLimitHoldsWhateverTheEstimateSaid) {
   const LabelImage box = boxed({6, 6, 6});
   const auto cells_within = [&box](double limit_s) {
