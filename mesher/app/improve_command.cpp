@@ -19,6 +19,8 @@
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_json.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/input/named_text.hpp"
 #include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
@@ -114,6 +116,7 @@ nlohmann::json report_json(const ImproveCommand& command, const ImproveGivenMesh
       {"version", CBC3D_VERSION},
       {"label_names", names_json(command.input.names)},
       {"coordinates", command.writing.coordinates},
+      {"input", chosen_json(command.input)},
       {"options",
        {{"min_dihedral_deg", options_of(command).improve.min_dihedral_deg},
         {"max_deviation_mm", report.max_deviation_mm},
@@ -185,7 +188,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
   add_coordinates_option(*improve, command->writing.coordinates);
   add_mesh_file_options(*improve, command->writing);
   add_label_array_option(*improve, command->reading);
-  add_image_options(*improve, command->input);
+  add_input_options(*improve, InputScope::image, command->input);
   add_report_option(*improve, command->common, "JSON file with counts, angles and volumes before and after");
   complete_command(*improve, command->common, exit_code, [command] { run(*command); });
 }
