@@ -12,6 +12,7 @@
 #include <span>
 #include <sstream>
 
+#include "mesher/app/bmp_header.hpp"
 #include "mesher/app/natural_order.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/app/tiff_pages.hpp"
@@ -151,6 +152,9 @@ Slice read_slice(const std::string& file, std::size_t page, bool luminance) {
     return read_tiff_slice(file, page, luminance);
   }
   require_no_palette(file);
+  if (is_bmp(file)) {
+    require_whole_bmp(file);
+  }
   const auto io = reader_of(file);
   Slice slice;
   ChildProcess child(limits_of(file), [&](const ChildOutput& out) { read_and_send(*io, file, out); });
