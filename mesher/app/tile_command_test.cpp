@@ -116,7 +116,7 @@ TEST_F(Tile, OneLineForWhatIsWrongAndNoFile) {
       {"a.png c.png --out v.nrrd --spacing 1,1,1", "'c.png': not a PNG"},
       {"a.png d.png --out v.nrrd --spacing 1,1,1", "'d.png': no such file"},
       {"a.png --out v.nii.gz --spacing 1,1,1", "v.nii.gz"},
-      {"a.png --out v.nrrd --spacing 1,0,1", "--spacing 1,0,1"},
+      {"a.png --out v.nrrd --spacing 1,0,1", "--spacing: 0: give a number from"},
       {"a.png --out v.nrrd --spacing 1,1", "--spacing"}};
   for (const auto& [arguments, says] : faults) {
     const Outcome outcome = run(arguments);

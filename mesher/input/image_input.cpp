@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/input/label_table.hpp"
 #include "mesher/input/table_beside.hpp"
@@ -62,21 +63,23 @@ void add_reading_options(CLI::App& command, ImageInput& input) {
   add_flag("--round", input.read.round_values,
            "take values within 1e-4 of an integer as that integer, of images of floats");
   add_value("--volume", input.read.volume, "N", "volume of a 4-D image, counted from 0 [a 3-D image]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number_between(0, 1000000));
   add_value(
       "--layer", input.read.layer, "N",
       "layer of a segmentation whose segments overlap, counted from 0 [all layers; where segments overlap, "
       "the last one in the file has the voxel]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number_between(0, 1000000));
   add_value("--background", input.choice.background, "V1,V2",
             "values that are background; without 0 among them, voxels of value 0 get the first one as their "
             "label [0]")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(label_value());
   add_value("--labels", input.choice.labels, "L1,L2",
             "labels that are taken; the rest becomes background [all]")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(label_value());
   add_flag("--keep-rest", input.choice.keep_rest,
            "with --labels: the other labels become one label, the largest plus one, instead of background");
   add_value(
