@@ -12,6 +12,7 @@
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/subcommand.hpp"
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
@@ -180,7 +181,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
                    "most 0.9 voxel "
                    "diagonals, or half the mean surface edge]")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-9, 1e9));
   improve->add_flag(
       "--decimate,!--no-decimation", command->decimate,
       "fit the surfaces to the boundary and thin the mesh out as well; without it what is below the goal is "

@@ -1,5 +1,6 @@
 #include "mesher/input/input_options.hpp"
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/input/image_input.hpp"
 
 namespace cbc3d {
@@ -73,11 +74,15 @@ struct Adder {
 
   CLI::Option* operator()(bool* value) const { return command.add_flag(flag(), *value, option.text); }
   CLI::Option* operator()(std::optional<int>* value) const {
-    return command.add_option(flag(), *value, help())->check(CLI::NonNegativeNumber);
+    constexpr int kMostVolumes = 1000000;
+    return command.add_option(flag(), *value, help())->check(whole_number_between(0, kMostVolumes));
   }
   CLI::Option* operator()(std::string* value) const { return command.add_option(flag(), *value, help()); }
   CLI::Option* operator()(std::vector<Label>* value) const {
-    return command.add_option(flag(), *value, help())->delimiter(',')->allow_extra_args(false);
+    return command.add_option(flag(), *value, help())
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(label_value());
   }
 };
 
