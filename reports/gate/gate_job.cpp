@@ -6,7 +6,7 @@
 
 #include "reports/results/columns.hpp"
 #include "reports/results/format_number.hpp"
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 
 namespace cbc3d::reports {
 namespace {
