@@ -6,7 +6,8 @@
 
 #include "reports/results/columns.hpp"
 #include "reports/results/format_number.hpp"
-#include "reports/results/statistics.hpp"
+#include "reports/results/run_values.hpp"
+#include "reports/statistics/robust.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -88,6 +89,8 @@ GateJob joint(const Runs& runs) {
   job.first_difference = job.deterministic && job.failure.empty() ? first_difference(runs) : "";
   job.missing_labels = missing_labels(runs);
   job.figures = joint_figures(runs);
+  job.time_ratios = values_of(runs, shown_figure(metrics::metric_id("time_ratio")));
+  job.parameters_in_force = first.reported_parameters;
   return job;
 }
 
