@@ -187,6 +187,10 @@ TEST(Commands, BadInputIsOneLineAndExitCodeTwo) {
       {"gate", folder.path(), "--baseline", folder.path() / "b.json"},
       {"run", "--suite", "demo", "--shard", "3/2", "--out", folder.path() / "out"},
       {"run", "--suite", "demo", "--shard", "x", "--out", folder.path() / "out"},
+      {"history"},
+      {"history", "add", folder.path(), "--store", folder.path() / "store"},
+      {"history", "show", "--store", folder.path() / "store"},
+      {"history", "regressions", "--store", folder.path() / "store", "--level", "2"},
       {"evaluate", folder.path() / "none.vtu", folder.path() / "none.nrrd"},
       {"phantom", "nonsense", "--out", folder.path() / "p.nrrd"}};
   for (const auto& call : calls) {
@@ -211,7 +215,7 @@ TEST(Commands, PhantomHonoursSizeAndSpacing) {
 
 TEST(Commands, EveryCommandHasHelp) {
   for (const char* command :
-       {"list", "run", "sweep", "gate", "report", "merge", "evaluate", "tables", "phantom"}) {
+       {"list", "run", "sweep", "gate", "report", "merge", "evaluate", "tables", "phantom", "history"}) {
     EXPECT_EQ(bench({command, "--help"}).exit_code, 0) << command;
   }
   for (const char* what : {"meshers", "cases", "suites"}) {

@@ -6,8 +6,8 @@
 
 #include "reports/results/columns.hpp"
 #include "reports/results/format_number.hpp"
+#include "reports/results/joint_figures.hpp"
 #include "reports/results/run_values.hpp"
-#include "reports/statistics/robust.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -15,25 +15,13 @@ namespace {
 using metrics::metric;
 using metrics::MetricId;
 
-/// The repeats' figures as one. What is derived comes from the joint figures: the time ratio is the least
-/// disturbed of the job's CPU times over the least disturbed of the reference's.
-metrics::Figures joint_figures(const Runs& runs) {
-  metrics::Figures joint;
-  for (const MetricId id : metrics::all_metrics()) {
-    std::vector<double> values;
-    for (const JobResult* run : runs) {
-      if (const auto& figure = run->figures[id]) {
-        values.push_back(*figure);
-      }
-    }
-    if (!values.empty()) {
-      joint[id] = metric(id).repeats == metrics::Repeats::least
-                      ? *std::min_element(values.begin(), values.end())
-                      : median(values);
-    }
+metrics::Figures figures_of(const Runs& runs) {
+  std::vector<const metrics::Figures*> repeats;
+  repeats.reserve(runs.size());
+  for (const JobResult* run : runs) {
+    repeats.push_back(&run->figures);
   }
-  joint.derive();
-  return joint;
+  return joint_figures(repeats);
 }
 
 std::string first_failure(const Runs& runs) {
@@ -88,7 +76,7 @@ GateJob joint(const Runs& runs) {
   job.failure = first_failure(runs);
   job.first_difference = job.deterministic && job.failure.empty() ? first_difference(runs) : "";
   job.missing_labels = missing_labels(runs);
-  job.figures = joint_figures(runs);
+  job.figures = figures_of(runs);
   job.time_ratios = values_of(runs, shown_figure(metrics::metric_id("time_ratio")));
   job.parameters_in_force = first.reported_parameters;
   return job;

@@ -51,6 +51,7 @@ Json provenance() {
   Json result;
   result["cbc3d_version"] = kVersion;
   result["git_commit"] = kGitCommit;
+  result["git_commit_date"] = kGitCommitDate;
   result["git_dirty"] = kGitDirty;
   result["compiler"] = kCompiler;
   result["compiler_flags"] = kCompilerFlags;

@@ -13,7 +13,7 @@ namespace {
 TEST(Provenance, HasEveryKeyOfALine) {
   const Json origin = provenance();
   for (const char* key :
-       {"cbc3d_version", "git_commit", "git_dirty", "compiler", "compiler_flags", "build_type", "libraries",
+       {"cbc3d_version", "git_commit", "git_commit_date", "git_dirty", "compiler", "compiler_flags", "build_type", "libraries",
         "cpu", "cores", "memory_bytes", "system", "load_1min", "utc"}) {
     EXPECT_TRUE(origin.contains(key) && !origin[key].is_null()) << key;
   }
