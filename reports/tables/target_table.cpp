@@ -115,12 +115,13 @@ class Comparison {
 
   [[nodiscard]] Row row() const {
     const std::string name = metrics::words(metric_.purpose) + (": " + title(metric_));
-    if (!is_measured() || best_.value() > 0) {
+    if (!is_measured() || best_.value() >= least_shown()) {
       Row row{case_name_, name, 2, {}};
       for (const Cell& cell : cells_) row.cells.push_back(multiple_of_best(cell));
       return row;
     }
-    const std::string best = best_.value() == 0 ? "0" : with_unit(best_.value(), metric_);
+    const std::string best =
+        std::abs(best_.value()) < least_shown() ? "0" : with_unit(best_.value(), metric_);
     return {case_name_, name + ", itself (the best is " + best + ")", metric_.decimals, cells_};
   }
 
@@ -135,6 +136,9 @@ class Comparison {
   }
 
  private:
+  /// Below half of the last digit that is shown a figure counts as 0: a multiple of rounding errors says
+  /// nothing.
+  [[nodiscard]] double least_shown() const { return 0.5 * std::pow(10.0, -metric_.decimals); }
   [[nodiscard]] bool is_lower_worse() const { return metric_.worse == metrics::Worse::lower; }
 
   /// Signed figures, such as errors of volume, count by their magnitude; a measure of which 1 is best does

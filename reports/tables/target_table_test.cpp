@@ -67,6 +67,14 @@ TEST(TargetTable, WhereTheBestIsZeroTheFiguresStandThemselves) {
   EXPECT_EQ(text("shape: min dihedral angle (deg)", 0), "1.00 (20.00 deg, label 4)");
 }
 
+TEST(TargetTable, WhereTheBestIsARoundingErrorTheFiguresStandThemselves) {
+  const Table targets =
+      table_of(target_table, {compared_line("cbc3d", 20, .5, 10), compared_line("cgal", 20, 1e-11, 10)});
+  const std::string row = "labels: volume error, labels above 500 voxels (%), itself (the best is 0)";
+  EXPECT_EQ(text_in(targets, "nidus", row, 0), "0.50 (label 2)");
+  EXPECT_EQ(text_in(targets, "nidus", row, 1), "0.00 (label 2)");
+}
+
 TEST(TargetTable, WhereEvenTheBestIsNegativeTheFiguresStandThemselves) {
   Json a = job_line("nidus", "cbc3d", 10), b = job_line("nidus", "cgal", 10);
   a["quality"]["mean_ratio"]["p1"] = -.5;
