@@ -33,6 +33,14 @@ TEST(Table, AFailedJobIsADashWithItsReasonBeneath) {
   EXPECT_EQ(json["rows"][0]["cells"]["cbc3d"]["value"], 1234567);
 }
 
+TEST(Table, WhatASpreadsheetWouldTakeForAFormulaIsQuoted) {
+  const std::string csv =
+      to_csv(counts({job_line("=cmd|'x'!A0", "+mesher", 7), crashed_line("@sum", "+mesher", "-1+\"2\"")}));
+  EXPECT_NE(csv.find("\"'+mesher\""), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n\"'=cmd|'x'!A0\",tetrahedra,7"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n\"'@sum\",tetrahedra,-,\"crashed: -1+\"\"2\"\"\""), std::string::npos) << csv;
+}
+
 TEST(Table, OneNoteServesAllFiguresOfAJob) {
   const Table table = table_of(catalog_table("fidelity", ""), {crashed_line("nidus", "cgal", "oops")});
   EXPECT_GT(table.rows.size(), 1U);

@@ -1,6 +1,8 @@
 // The written forms of a table.
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <string_view>
 
 #include "reports/tables/markup.hpp"
 #include "reports/tables/table.hpp"
@@ -40,7 +42,22 @@ std::string latex_text(const std::string& text) {
   return escaped;
 }
 
+/// True for a text that a spreadsheet would take for a formula, as names and reasons from outside may be; "-"
+/// alone is our own sign of a missing figure.
+bool is_formula(const std::string& text) {
+  if (text.empty() || text == "-" || std::string_view("=+-@").find(text[0]) == std::string_view::npos) {
+    return false;
+  }
+  double number = 0;
+  const char* const begin = text.data() + (text[0] == '+' ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
+  return error != std::errc() || end != text.data() + text.size();
+}
+
 std::string csv_text(const std::string& text) {
+  if (is_formula(text)) {
+    return "\"'" + replace_all(text, "\"", "\"\"") + '"';  // an apostrophe makes a text of it
+  }
   if (text.find_first_of(",\"\n\r") == std::string::npos) {
     return text;
   }
