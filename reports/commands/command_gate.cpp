@@ -5,6 +5,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/one_line.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/gate/gate.hpp"
 
@@ -31,21 +32,18 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-/// Writes GitHub's annotations and step summary, where the environment asks for them.
-void report_to_github(const Verdict& verdict) {
-  if (is_set("GITHUB_ACTIONS")) {
-    std::cout << to_annotations(verdict);
-  }
+/// Adds to GitHub's step summary, where the environment names one.
+void add_to_step_summary(const std::string& text) {
   if (is_set("GITHUB_STEP_SUMMARY")) {
     std::ofstream summary(std::getenv("GITHUB_STEP_SUMMARY"), std::ios::app);
-    summary << to_step_summary(verdict);
+    summary << text;
     if (!summary.flush()) {
       std::cerr << "cannot write the step summary '" << std::getenv("GITHUB_STEP_SUMMARY") << "'\n";
     }
   }
 }
 
-int gate(const GateOptions& options) {
+int compare_and_report(const GateOptions& options) {
   const std::vector<JobResult> results = results_of(options.folder);
   if (!options.reason.empty()) {
     return update(options, results);
@@ -54,11 +52,30 @@ int gate(const GateOptions& options) {
   if (!options.junit.empty()) {
     write_text_file(options.junit, to_junit(verdict));
   }
-  report_to_github(verdict);
+  if (is_set("GITHUB_ACTIONS")) {
+    std::cout << to_annotations(verdict);
+  }
+  add_to_step_summary(to_step_summary(verdict));
   if (!options.quiet || !verdict.holds()) {
     std::cout << to_text(verdict);
   }
   return verdict.holds() ? kExitSuccess : kExitGateFailed;
+}
+
+/// A gate that errs says so in the places where its verdict is looked for, too.
+int gate(const GateOptions& options) {
+  try {
+    return compare_and_report(options);
+  } catch (const InputError& error) {
+    const std::string reason = one_line(error.what());
+    if (options.reason.empty()) {
+      add_to_step_summary(to_step_summary_error(reason));
+    }
+    if (options.reason.empty() && !options.junit.empty()) {
+      write_text_file(options.junit, to_junit_error(reason));
+    }
+    throw;
+  }
 }
 
 }  // namespace
