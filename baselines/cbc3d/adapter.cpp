@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/json_text.hpp"
 
 namespace cbc3d::baselines {
 namespace {
@@ -75,7 +76,7 @@ ParameterSpecs described_by_program(const Preset& preset, const fs::path& bin_di
   if (!is_built(bin_dir)) return {};
   const std::string command = quoted(bin_dir / "cbc3d") + " mesh --describe-options";
   try {
-    const json description = json::parse(output_of(command));
+    const json description = parse_json<json>(output_of(command), command);
     for (const json& described : description.at("presets")) {
       const bool is_named = preset.name.empty() || described.at("preset") == preset.name;
       if (is_named && described.at("mixed") == preset.mixed) return specs_of(described.at("options"));

@@ -113,6 +113,12 @@ const PhantomKind& require_kind(const Phantom& phantom) {
                      std::to_string(phantom.size[1]) + "," + std::to_string(phantom.size[2]) +
                      " is too small; every side needs at least " + std::to_string(kSmallest) + " voxels");
   }
+  constexpr double kMostVoxels = 4e9;
+  if (1.0 * phantom.size[0] * phantom.size[1] * phantom.size[2] > kMostVoxels) {
+    throw InputError("phantom size " + std::to_string(phantom.size[0]) + "," +
+                     std::to_string(phantom.size[1]) + "," + std::to_string(phantom.size[2]) +
+                     " is too large; it may have 4e9 voxels in all");
+  }
   if (!phantom.spacing_mm.all_finite() || !(phantom.spacing_mm.min_coeff() > 0)) {
     throw InputError("phantom spacing must be positive along every axis");
   }

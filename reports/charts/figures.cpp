@@ -191,7 +191,7 @@ void write_figures(const std::vector<Figure>& figures, const std::filesystem::pa
         {{"rsvg-convert", "--zoom", "2", "--output", folder / (one.name + ".png"), svg}, 1, kTimeoutS, 0});
     if (child.end != ChildEnd::exited || child.exit_code != 0) {
       convert = child.end != ChildEnd::not_started;
-      progress.line("no PNG of the plots: " + last_line(child.stderr_tail) +
+      progress.line("no PNG of the plots: " + printable(last_line(child.stderr_tail)) +
                     (convert ? "" : "; install librsvg2-bin; the SVG files are there"));
     }
   }

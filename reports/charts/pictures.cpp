@@ -66,7 +66,7 @@ const JobResult* mixed_partner(const std::vector<JobResult>& results, const JobR
 }
 
 std::string failure_text(const ChildResult& child) {
-  const std::string line = last_line(child.stderr_tail);
+  const std::string line = printable(last_line(child.stderr_tail));
   switch (child.end) {
     case ChildEnd::timeout:
       return "not done after " + format_number(kTimeoutS, 0) + " s";
@@ -97,7 +97,7 @@ int draw_pictures(const fs::path& out_dir, const std::vector<JobResult>& results
     progress.step("pictures: " + key.first + ", " + key.second, 1);
     const ChildResult child = draw(out_dir, result, mixed_partner(results, result), bin_dir);
     if (child.end == ChildEnd::not_started) {
-      progress.line("no pictures: " + last_line(child.stderr_tail) + "; install xvfb");
+      progress.line("no pictures: " + printable(last_line(child.stderr_tail)) + "; install xvfb");
       return 0;
     }
     if (child.end == ChildEnd::exited && child.exit_code == 0) {

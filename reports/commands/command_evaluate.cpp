@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cases/phantoms/registry.hpp"
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
@@ -157,13 +158,17 @@ void add_phantom_options(CLI::App& parser, const std::shared_ptr<EvaluateCommand
       .add_option("--phantom-size", options->phantom_size,
                   "its voxels along each axis, X,Y,Z; default: the generator's own")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(whole_number_between(1, 100000));
   parser
       .add_option("--phantom-spacing", options->phantom_spacing_mm,
                   "its voxel spacing, mm, X,Y,Z; default: the generator's own")
       ->delimiter(',')
-      ->expected(3);
-  parser.add_option("--phantom-seed", options->phantom_seed, "its seed")->capture_default_str();
+      ->expected(3)
+      ->check(number_between(1e-6, 1e6));
+  parser.add_option("--phantom-seed", options->phantom_seed, "its seed")
+      ->check(seed_value())
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -182,7 +187,7 @@ Command add_evaluate_command(CLI::App& app) {
   parser
       ->add_option("--tolerance", options->metrics.tolerance_mm,
                    "distance of these bounds (mm); 0: 0.02 of the smallest voxel spacing")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0, 1e6))
       ->capture_default_str();
   parser
       ->add_flag("--smooth,!--no-smooth", options->metrics.smooth,
@@ -193,7 +198,7 @@ Command add_evaluate_command(CLI::App& app) {
       "solve Poisson's equation on the mesh with elements of order 1 and 2 (cbc3d-solve, a process of "
       "its own) and give the errors; what is not solved is null with the reason");
   parser->add_option("--solve-timeout", options->solve_timeout_s, "time limit of that process, s")
-      ->check(CLI::PositiveNumber)
+      ->check(number_between(1e-3, 1e7))
       ->capture_default_str();
   add_input_options(*parser, InputScope::reading, options->input);
   parser

@@ -3,8 +3,10 @@
 #include <fstream>
 #include <iostream>
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/one_line.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/gate/gate.hpp"
 
@@ -33,21 +35,18 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-/// Writes GitHub's annotations and step summary, where the environment asks for them.
-void report_to_github(const Verdict& verdict) {
-  if (is_set("GITHUB_ACTIONS")) {
-    std::cout << to_annotations(verdict);
-  }
+/// Adds to GitHub's step summary, where the environment names one.
+void add_to_step_summary(const std::string& text) {
   if (is_set("GITHUB_STEP_SUMMARY")) {
     std::ofstream summary(std::getenv("GITHUB_STEP_SUMMARY"), std::ios::app);
-    summary << to_step_summary(verdict);
+    summary << text;
     if (!summary.flush()) {
       std::cerr << "cannot write the step summary '" << std::getenv("GITHUB_STEP_SUMMARY") << "'\n";
     }
   }
 }
 
-int gate(const GateOptions& options) {
+int compare_and_report(const GateOptions& options) {
   const std::vector<JobResult> results = results_of(options.folder);
   if (!options.reason.empty()) {
     return update(options, results);
@@ -58,11 +57,30 @@ int gate(const GateOptions& options) {
   if (!options.junit.empty()) {
     write_text_file(options.junit, to_junit(verdict));
   }
-  report_to_github(verdict);
+  if (is_set("GITHUB_ACTIONS")) {
+    std::cout << to_annotations(verdict);
+  }
+  add_to_step_summary(to_step_summary(verdict));
   if (!options.quiet || !verdict.holds()) {
     std::cout << to_text(verdict);
   }
   return verdict.holds() ? kExitSuccess : kExitGateFailed;
+}
+
+/// A gate that errs says so in the places where its verdict is looked for, too.
+int gate(const GateOptions& options) {
+  try {
+    return compare_and_report(options);
+  } catch (const InputError& error) {
+    const std::string reason = one_line(error.what());
+    if (options.reason.empty()) {
+      add_to_step_summary(to_step_summary_error(reason));
+    }
+    if (options.reason.empty() && !options.junit.empty()) {
+      write_text_file(options.junit, to_junit_error(reason));
+    }
+    throw;
+  }
 }
 
 void add_test_options(CLI::App* parser, GateOptions& options) {
@@ -72,12 +90,12 @@ void add_test_options(CLI::App* parser, GateOptions& options) {
   parser
       ->add_option("--level", options.time_test.level,
                    "with --test-times: the probability of a false alarm, of all jobs together")
-      ->check(CLI::Range(1e-9, 0.5))
+      ->check(number_between(1e-9, 0.5))
       ->capture_default_str();
   parser
       ->add_option("--least-change", options.time_test.least_change_percent,
                    "with --test-times: by how much a median must be slower to fall, %")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0, 1e6))
       ->capture_default_str();
   parser->add_flag("--partial", options.partial,
                    "the run has only some of the baseline's jobs: the others do not fall, and keep their "

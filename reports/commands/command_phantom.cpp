@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "cases/phantoms/registry.hpp"
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
 #include "reports/commands/commands.hpp"
@@ -56,12 +57,16 @@ Command add_phantom_command(CLI::App& app) {
   parser->add_option("-o,--out", options->out, "image file: .nii, .nii.gz, .nrrd, .mha or .mhd")->required();
   parser->add_option("--size", options->size, "voxels along each axis, X,Y,Z; default: the generator's own")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(whole_number_between(1, 100000));
   parser
       ->add_option("--spacing", options->spacing_mm, "voxel spacing, mm, X,Y,Z; default: the generator's own")
       ->delimiter(',')
-      ->expected(3);
-  parser->add_option("--seed", options->seed, "seed of the random choices")->capture_default_str();
+      ->expected(3)
+      ->check(number_between(1e-6, 1e6));
+  parser->add_option("--seed", options->seed, "seed of the random choices")
+      ->check(seed_value())
+      ->capture_default_str();
   add_threads_option(parser, options->threads);
   parser->add_flag("--quiet", options->quiet, "print nothing");
   return {parser, [options] { return write_phantom(*options); }};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/error.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/commands/selection.hpp"
@@ -71,7 +72,7 @@ Command add_run_command(CLI::App& app) {
           "numbers of elements, separated by commas: each mesher's size dial is turned until its mesh has "
           "about so many, a job for each; default with the suite front: 25000,50000,100000,200000,400000")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number_between(1, 1000000000));
   add_limit_options(parser, options->run, options->memory_limit_gib);
   parser->add_flag("--solve", options->run.solve,
                    "solve Poisson's equation on every mesh (cbc3d-solve, a process of its own under the same "

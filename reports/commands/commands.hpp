@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "mesher/command_line/number_range.hpp"
+
 namespace cbc3d::reports {
 
 /// A command: its parser, and what it does once its options are parsed. `run` returns the exit code.
@@ -17,7 +19,9 @@ struct Command {
 /// Adds the --threads and --quiet of a command that is done by one thread, `work` ("merging needs").
 inline void add_idle_options(CLI::App* parser, int& threads, const std::string& work, bool& quiet,
                              const std::string& quiet_text) {
-  parser->add_option("--threads", threads, "threads (" + work + " one)")->capture_default_str();
+  parser->add_option("--threads", threads, "threads (" + work + " one)")
+      ->check(thread_count())
+      ->capture_default_str();
   parser->add_flag("--quiet", quiet, quiet_text);
 }
 inline void add_manifests_option(CLI::App* parser, std::string& folder) {
@@ -26,7 +30,7 @@ inline void add_manifests_option(CLI::App* parser, std::string& folder) {
 /// Adds the --threads of a command that is done by several.
 inline void add_threads_option(CLI::App* parser, int& threads) {
   parser->add_option("--threads", threads, "threads; 0: all cores")
-      ->check(CLI::NonNegativeNumber)
+      ->check(thread_count())
       ->capture_default_str();
 }
 

@@ -50,7 +50,11 @@ int main(int argc, char** argv) {
     }
     return kExitBadInput;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitSuccess : kExitBadInput;
+    if (error.get_exit_code() == 0) {  // what --help and --version asked for
+      return app.exit(error);
+    }
+    std::cerr << "cbc3d-bench: " << one_line(with_short_words(error.what())) << " (see --help)\n";
+    return kExitBadInput;
   } catch (const InputError& error) {
     std::cerr << one_line(error.what()) << '\n';
     return kExitBadInput;

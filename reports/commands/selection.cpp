@@ -5,6 +5,7 @@
 
 #include "baselines/external.hpp"
 #include "baselines/registry.hpp"
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/error.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/run/solve.hpp"
@@ -140,20 +141,34 @@ void add_limit_options(CLI::App* parser, RunOptions& run, double& memory_limit_g
       ->add_option("--threads", run.threads,
                    "thread counts, separated by commas; 0: all cores. Sequential meshers run once, with 1")
       ->delimiter(',')
-      ->check(CLI::NonNegativeNumber)
+      ->check(thread_count())
       ->capture_default_str();
   parser->add_flag(
       "--bind-threads", run.bind_threads,
       "threads of OpenMP meshers stay each on a core of its own (OMP_PROC_BIND), so that no time goes to "
       "the system finding them one; for a machine that does nothing else");
   parser->add_option("--repeat", run.repeats, "runs of every job")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number_between(1, 10000))
       ->capture_default_str();
-  parser->add_option("--timeout", run.timeout_s, "time limit of every child process, s")
-      ->check(CLI::PositiveNumber)
+  parser->add_option("--timeout", run.timeout_s, "time limit of every mesher and solver, s")
+      ->check(number_between(1e-3, 1e7))
       ->capture_default_str();
+  parser
+      ->add_option(
+          "--evaluation-timeout", run.evaluation_timeout_s,
+          "time limit of judging one mesh, s; a mesh that could not be judged in time keeps its counts "
+          "and seconds")
+      ->check(number_between(1e-3, 1e7))
+      ->capture_default_str();
+  parser
+      ->add_option_function<double>(
+          "--file-limit",
+          [&run](double gib) { run.file_limit_bytes = static_cast<std::int64_t>(gib * double(1 << 30)); },
+          "limit of every file that a mesher writes, GiB")
+      ->check(number_between(1e-6, 1e6))
+      ->default_str("16");
   parser->add_option("--memory-limit", memory_limit_gib, "memory limit of every job's processes, GiB")
-      ->check(CLI::PositiveNumber)
+      ->check(number_between(1e-3, 1e6))
       ->capture_default_str();
 }
 

@@ -23,7 +23,8 @@ struct Selection {
 
 /// Adds --suite, --case, --mesher, --external, --data, --parameter-set, --set and --manifests.
 void add_selection_options(CLI::App* parser, Selection& selection);
-/// Adds --threads, --repeat, --timeout, --memory-limit (in GiB, into `memory_limit_gib`).
+/// Adds --threads, --repeat, --timeout, --evaluation-timeout, --file-limit, --memory-limit (in GiB, into
+/// `memory_limit_gib`).
 void add_limit_options(CLI::App* parser, RunOptions& run, double& memory_limit_gib);
 
 /// The case manifests of a folder, or the installed ones when it is empty.

@@ -109,13 +109,19 @@ TEST(LimitOptions, TheCommandLineGivesThreadsRepeatsAndLimits) {
   RunOptions run;
   double memory_limit_gib = 16;
   add_limit_options(&app, run, memory_limit_gib);
-  app.parse("--threads 1,2,0 --repeat 3 --timeout 2.5 --memory-limit 0.5");
+  app.parse(
+      "--threads 1,2,0 --repeat 3 --timeout 2.5 --memory-limit 0.5 --evaluation-timeout 7 --file-limit 0.25");
   EXPECT_EQ(run.threads, (std::vector<int>{1, 2, 0}));
   EXPECT_EQ(run.repeats, 3);
   EXPECT_EQ(run.timeout_s, 2.5);
   EXPECT_EQ(memory_limit_gib, 0.5);
   EXPECT_THROW(app.parse("--repeat 0"), CLI::ValidationError);
-  EXPECT_THROW(app.parse("--timeout -1"), CLI::ValidationError);
+  EXPECT_EQ(run.evaluation_timeout_s, 7);
+  EXPECT_EQ(run.file_limit_bytes, std::int64_t{1} << 28);
+  for (const char* const bad :
+       {"--timeout -1", "--timeout nan", "--memory-limit inf", "--file-limit 1e300"}) {
+    EXPECT_THROW(app.parse(bad), CLI::ValidationError) << bad;
+  }
 }
 
 }  // namespace

@@ -34,6 +34,9 @@ std::string to_junit(const Verdict& verdict);
 std::string to_text(const Verdict& verdict);
 /// GitHub's step summary.
 std::string to_step_summary(const Verdict& verdict);
+/// The same of a gate that could compare nothing, for this reason.
+std::string to_junit_error(const std::string& reason);
+std::string to_step_summary_error(const std::string& reason);
 /// GitHub's annotations, a line for every check that fell.
 std::string to_annotations(const Verdict& verdict);
 

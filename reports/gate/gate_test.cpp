@@ -248,7 +248,16 @@ TEST(Gate, TheCommandWritesForJUnitAndGitHub) {
     argv.insert(argv.end(), more.begin(), more.end());
     return run_child({argv, 1, 0, 0}).exit_code;
   };
-  EXPECT_EQ(call({}), 2);  // there is no baseline yet
+  const auto text_of = [&](const char* name) {
+    std::ifstream stream(folder.path() / name);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  ::setenv("GITHUB_STEP_SUMMARY", (folder.path() / "error.md").c_str(), 1);
+  EXPECT_EQ(call({"--junit", folder.path() / "error.xml"}), 2);  // there is no baseline yet
+  ::unsetenv("GITHUB_STEP_SUMMARY");
+  EXPECT_NE(text_of("error.md").find("Nothing was compared: "), std::string::npos);
+  EXPECT_NE(text_of("error.xml").find("errors=\"1\""), std::string::npos);
+  EXPECT_NE(text_of("error.xml").find("b.json"), std::string::npos);
   EXPECT_EQ(call({"--update", " "}), 2);
   EXPECT_EQ(call({"--update", "the first"}), 0);
   EXPECT_EQ(call({}), 0);
@@ -258,10 +267,6 @@ TEST(Gate, TheCommandWritesForJUnitAndGitHub) {
   ::setenv("GITHUB_STEP_SUMMARY", (folder.path() / "summary.md").c_str(), 1);
   EXPECT_EQ(call({"--junit", folder.path() / "gate.xml"}), 1);
   ::unsetenv("GITHUB_STEP_SUMMARY");
-  const auto text_of = [&](const char* name) {
-    std::ifstream stream(folder.path() / name);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-  };
   EXPECT_NE(text_of("summary.md").find("| box, cbc3d, 1 thread | counts.tets | tetrahedra was 20"),
             std::string::npos);
   EXPECT_NE(text_of("gate.xml").find("<failure message=\"tetrahedra was 20"), std::string::npos);

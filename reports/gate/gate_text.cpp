@@ -80,6 +80,17 @@ std::string to_step_summary(const Verdict& verdict) {
   return text;
 }
 
+std::string to_junit_error(const std::string& reason) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"cbc3d-bench gate\" "
+         "tests=\"1\" failures=\"0\" errors=\"1\" skipped=\"0\">\n"
+         "  <testcase classname=\"gate\" name=\"comparison\"><error message=\"" +
+         markup_text(reason) + "\"/></testcase>\n</testsuite>\n</testsuites>\n";
+}
+
+std::string to_step_summary_error(const std::string& reason) {
+  return "### cbc3d-bench gate\n\nNothing was compared: " + markdown_text(reason) + "\n";
+}
+
 std::string to_annotations(const Verdict& verdict) {
   std::string text;
   for (const Check& check : verdict.checks) {

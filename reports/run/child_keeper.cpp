@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -32,6 +33,7 @@ struct Pipes {
 /// The command in the form that exec takes.
 struct Program {
   std::vector<char*> argv, environment;
+  std::int64_t file_limit_bytes = 0;
 };
 
 constexpr std::array kEndingSignals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE};
@@ -54,6 +56,15 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
+/// No file may grow beyond this, or beyond what the system allows.
+void limit_files(std::int64_t bytes) {
+  rlimit limit{};
+  if (bytes > 0 && ::getrlimit(RLIMIT_FSIZE, &limit) == 0) {
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, static_cast<rlim_t>(bytes));
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+}
+
 [[noreturn]] void become(const Program& program, const Pipes& pipes, pid_t keeper) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -70,6 +81,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  limit_files(program.file_limit_bytes);
   ::execvpe(program.argv[0], program.argv.data(), program.environment.data());
   const int error = errno;
   [[maybe_unused]] const ssize_t written = ::write(pipes.start.write_end, &error, sizeof error);
@@ -204,8 +216,9 @@ class Keeper {
 
 }  // namespace
 
-KeptChild start_kept_child(std::vector<std::string> argv, std::vector<std::string> variables) {
-  const Program program{pointers_to(argv), pointers_to(variables)};
+KeptChild start_kept_child(std::vector<std::string> argv, std::vector<std::string> variables,
+                           std::int64_t file_limit_bytes) {
+  const Program program{pointers_to(argv), pointers_to(variables), file_limit_bytes};
   const Pipes pipes{open_pipe(), open_pipe(), open_pipe(), open_pipe()};
   const pid_t keeper = ::fork();
   if (keeper == 0) {

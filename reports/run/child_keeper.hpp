@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct KeptChild {
   int lifeline = -1;  ///< write end; closing it ends the command
 };
 
-/// Starts `argv` with the environment `variables` ("KEY=VALUE"). One at a time: a second keeper would hold
-/// the first one's lifeline open. Throws JobError when no process can be made.
-KeptChild start_kept_child(std::vector<std::string> argv, std::vector<std::string> variables);
+/// Starts `argv` with the environment `variables` ("KEY=VALUE"); it writes no file of more than
+/// `file_limit_bytes`, where that is not 0. One at a time: a second keeper would hold the first one's
+/// lifeline open. Throws JobError when no process can be made.
+KeptChild start_kept_child(std::vector<std::string> argv, std::vector<std::string> variables,
+                           std::int64_t file_limit_bytes = 0);
 
 }  // namespace cbc3d::reports

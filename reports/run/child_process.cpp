@@ -94,7 +94,8 @@ class RunningChild {
  public:
   explicit RunningChild(const ChildCommand& command)
       : command_(command),
-        child_(start_kept_child(command.argv, child_environment(command.threads, command.bind_threads))),
+        child_(start_kept_child(command.argv, child_environment(command.threads, command.bind_threads),
+                                command.file_limit_bytes)),
         tail_(child_.errors) {}
   ~RunningChild() {
     let_go();
@@ -208,10 +209,29 @@ std::string last_line(const std::string& text) {
   return text.substr(begin, end + 1 - begin);
 }
 
+namespace {
+
+/// Terminals obey control characters: those of ASCII, and those that UTF-8 writes as C2 80 to C2 9F.
+std::string without_controls(const std::string& text) {
+  std::string kept;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const auto c = static_cast<unsigned char>(text[at]);
+    const auto next = static_cast<unsigned char>(at + 1 < text.size() ? text[at + 1] : '\0');
+    if (c == 0xC2 && next >= 0x80 && next < 0xA0) {
+      ++at;
+    } else if ((c >= ' ' && c != 0x7F) || c == '\n' || c == '\t') {
+      kept += text[at];
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
 std::string printable(const std::string& text) {
   const std::string clean =
       nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  return nlohmann::json::parse(clean).get<std::string>();
+  return without_controls(nlohmann::json::parse(clean).get<std::string>());
 }
 
 std::string failure_text(const ChildResult& child, double timeout_s, std::int64_t memory_limit_bytes) {
@@ -223,6 +243,9 @@ std::string failure_text(const ChildResult& child, double timeout_s, std::int64_
       return "used more than " + number_text(static_cast<double>(memory_limit_bytes) / double(1 << 30)) +
              " GiB";
     case ChildEnd::signalled:
+      if (child.signal == SIGXFSZ) {
+        return "wrote a file beyond its limit; --file-limit sets that";
+      }
       return signal_name(child.signal) + (line.empty() ? "" : "; last line: " + line);
     case ChildEnd::not_started:
       return line;

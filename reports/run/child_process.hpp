@@ -14,6 +14,7 @@ struct ChildCommand {
   std::int64_t memory_limit_bytes =
       0;                      ///< limit on the resident memory of the command and all it started; 0: none
   bool bind_threads = false;  ///< OMP_PROC_BIND: OpenMP's threads stay each on a core of its own
+  std::int64_t file_limit_bytes = 0;  ///< of each file that the command writes (RLIMIT_FSIZE); 0: none
 };
 
 enum class ChildEnd {
@@ -48,7 +49,8 @@ std::string last_line(const std::string& text);
 /// line that it wrote to standard error, or else its exit code.
 std::string failure_text(const ChildResult& child, double timeout_s, std::int64_t memory_limit_bytes);
 
-/// A text that a program printed, which may be anything, as UTF-8.
+/// A text that a program printed, which may be anything, as UTF-8 without control characters but ends of
+/// lines and tabs.
 std::string printable(const std::string& text);
 
 /// "SIGSEGV (Segmentation fault)".

@@ -125,6 +125,29 @@ TEST(ChildProcess, MemoryOfAGrandchildCounts) {
   EXPECT_EQ(result.end, ChildEnd::out_of_memory);
 }
 
+TEST(ChildProcess, NoFileGrowsBeyondItsLimit) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "garbage";
+  ChildResult result = run_child({{TEST_CHILD, "garbage", file}, 1, kNoTimeLimit, 0, false, 1000});
+  EXPECT_EQ(result.end, ChildEnd::signalled);
+  EXPECT_EQ(result.signal, SIGXFSZ);
+  EXPECT_EQ(failure_text(result, 0, 0), "wrote a file beyond its limit; --file-limit sets that");
+  EXPECT_LE(std::filesystem::file_size(file), 1000U);
+  result = run_child({{TEST_CHILD, "garbage", file}, 1, kNoTimeLimit, 0, false, 5000});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(std::filesystem::file_size(file), 4096U);
+}
+
+TEST(ChildProcess, WhatIsPrintedHasNoControlCharacters) {
+  EXPECT_EQ(printable("\x1B[31mred\a\r\x7F \xC2\x9B"
+                      "8m\n\tend"),
+            "[31mred 8m\n\tend");
+  EXPECT_EQ(printable("caf\xC3\xA9 \xC2\xA0."), "caf\xC3\xA9 \xC2\xA0.");
+  ChildResult result = run({"say", "\x1B]0;title\a bad"});
+  result.exit_code = 1;
+  EXPECT_EQ(failure_text(result, 0, 0), "]0;title bad");
+}
+
 TEST(ChildProcess, FindsTheLastLine) {
   EXPECT_EQ(last_line("one\ntwo\n\n  \n"), "two");
   EXPECT_EQ(last_line("bar 10 %\rbar 20 %"), "bar 20 %");

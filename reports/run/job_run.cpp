@@ -90,7 +90,7 @@ void set_failure(Json& result, const ChildResult& child, const nlohmann::json& r
   if (child.end != ChildEnd::exited) {
     return set_status(result, status_of(child.end), text);
   }
-  const std::string reason = text_at(report, "reason");
+  const std::string reason = printable(text_at(report, "reason"));
   set_status(result, text_at(report, "status") == "out_of_memory" ? "out_of_memory" : "failed",
              reason.empty() ? text : reason);
 }
@@ -228,7 +228,8 @@ class Children {
   bool mesh(const fs::path& image, const Parameters& parameters, Json& result) const {
     const std::vector<std::string> argv =
         job_.mesher->command(bench_.bin_dir, {image, files_.mesh, files_.report, job_.threads, parameters});
-    const ChildResult child = start(argv, job_.threads, binds_threads(options_, job_));
+    const ChildResult child = run_child({argv, job_.threads, options_.timeout_s, options_.memory_limit_bytes,
+                                         binds_threads(options_, job_), options_.file_limit_bytes});
     const nlohmann::json report = read_json(files_.report);
     const bool external = job_.mesher->name.rfind("external:", 0) == 0;
     set_costs(result, child, report, external);
@@ -238,31 +239,34 @@ class Children {
     if (succeeded(child) && fs::exists(files_.mesh)) {
       return true;
     }
+    std::error_code error;
+    fs::remove(files_.mesh, error);  // before the log, which needs its room where it filled the disk
     if (succeeded(child)) {
       set_status(result, "failed", "the mesher ended with success but wrote no mesh");
     } else {
       set_failure(result, child, report, options_);
+      write_log(child);
     }
-    std::error_code error;
-    fs::remove(files_.mesh, error);
     return false;
   }
 
-  /// The evaluation; empty when it did not end well, and then the line says why.
+  /// The evaluation; empty when it did not end well, and then the line says why and keeps what the mesher
+  /// reported, its counts and seconds.
   nlohmann::json evaluate(const fs::path& image, Json& result) const {
     std::vector<std::string> argv = bench_.evaluate_command;
     argv.insert(argv.end(), {files_.mesh, image, "--json", files_.evaluation, "--quiet"});
     const std::vector<std::string> phantom = phantom_options(*job_.subject);
     argv.insert(argv.end(), phantom.begin(), phantom.end());
-    const ChildResult child = start(argv, 0, false);
+    const ChildResult child =
+        run_child({argv, 0, options_.evaluation_timeout_s, options_.memory_limit_bytes});
     nlohmann::json evaluation = read_json(files_.evaluation);
     std::error_code error;
     fs::remove(files_.evaluation, error);
     if (succeeded(child) && !evaluation.empty()) {
       return evaluation;
     }
-    set_failure(result, child, {}, options_);
-    result["reason"] = "meshed, but the evaluation did not end: " + result["reason"].get<std::string>();
+    write_log(child);
+    set_not_judged(result, child);
     return nlohmann::json::object();
   }
 
@@ -273,19 +277,25 @@ class Children {
   }
 
  private:
-  [[nodiscard]] ChildResult start(const std::vector<std::string>& argv, int threads,
-                                  bool bind_threads) const {
-    ChildResult child =
-        run_child({argv, threads, options_.timeout_s, options_.memory_limit_bytes, bind_threads});
-    if (!succeeded(child)) {
-      try {
-        write_text_file(files_.log, child.stderr_tail);
-      } catch (const std::exception& error) {
-        // A mesher may have filled the disk: its mesh has to go all the same.
-        std::cerr << "warning: " << error.what() << '\n';
-      }
+  void write_log(const ChildResult& child) const {
+    try {
+      write_text_file(files_.log, printable(child.stderr_tail));
+    } catch (const std::exception& error) {
+      std::cerr << "warning: " << error.what() << '\n';  // the disk may be full; the run goes on
     }
-    return child;
+  }
+
+  /// The mesher kept its limits, so a judge that did not keep its own is no timeout of the mesher.
+  void set_not_judged(Json& result, const ChildResult& child) const {
+    RunOptions limits;
+    limits.timeout_s = options_.evaluation_timeout_s;
+    limits.memory_limit_bytes = options_.memory_limit_bytes;
+    set_failure(result, child, {}, limits);
+    if (child.end == ChildEnd::timeout) {
+      result["status"] = "failed";
+    }
+    result["reason"] = "meshed, but the evaluation did not end: " + result["reason"].get<std::string>() +
+                       (child.end == ChildEnd::timeout ? "; --evaluation-timeout sets that" : "");
   }
 
   const Bench& bench_;
@@ -309,6 +319,23 @@ double count_elements(const Json& result, const fs::path& mesh_file) {
         static_cast<double>(mesh.tets.size() + mesh.pyramids.size() + mesh.wedges.size() + mesh.hexes.size());
   }
   return elements;
+}
+
+/// Counts of a mesh that was not judged, where its mesher reported none; none of one that cannot be read.
+void count_unjudged(Json& result, const fs::path& mesh_file) {
+  if (figure(result, {"counts", "tets"}).is_number() && figure(result, {"counts", "tets"}) != 0) {
+    return;
+  }
+  try {
+    const Mesh mesh = read_mesh(mesh_file);
+    result["counts"] = {{"vertices", mesh.points.size()},
+                        {"tets", mesh.tets.size()},
+                        {"pyramids", mesh.pyramids.size()},
+                        {"wedges", mesh.wedges.size()},
+                        {"hexes", mesh.hexes.size()}};
+  } catch (const InputError& error) {
+    return;  // the reason why it was not judged says so
+  }
 }
 
 /// The command of a job with names in the place of its files.
@@ -516,6 +543,7 @@ void JobRunner::run_children(const Job& job, const fs::path& image, Json& result
   if (!evaluations_.contains(key)) {
     const nlohmann::json evaluation = children.evaluate(image, result);
     if (evaluation.empty()) {
+      count_unjudged(result, files.mesh);
       return;
     }
     evaluations_[key] = evaluation;

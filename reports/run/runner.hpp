@@ -38,8 +38,10 @@ struct RunOptions {
   std::filesystem::path out_dir;  ///< gets results.jsonl, meshes/ and logs/
   std::vector<int> threads{0};    ///< thread counts; 0: all cores. Sequential meshers run once, with 1
   int repeats = 1;                ///< runs of every job
-  double timeout_s = 1800;        ///< limit of each child's wall-clock time, s
+  double timeout_s = 1800;        ///< limit of each mesher's and solver's wall-clock time, s
   std::int64_t memory_limit_bytes = std::int64_t{16} << 30;  ///< limit of each child's resident memory
+  std::int64_t file_limit_bytes = std::int64_t{16} << 30;    ///< limit of every file that a mesher writes
+  double evaluation_timeout_s = 1800;            ///< limit of the wall-clock time of judging one mesh, s
   std::map<std::string, Parameters> parameters;  ///< by mesher: laid over the case's own parameters
   bool resume = false;                           ///< leave out jobs that have a line already
   bool rerun_changed = false;  ///< on resuming, run again what has changed instead of refusing

@@ -91,6 +91,30 @@ TEST_F(Runner, AGoodJobHasFiguresTimesAndProvenance) {
   EXPECT_TRUE(std::filesystem::exists(options_.out_dir / result["mesh_file"].get<std::string>()));
 }
 
+TEST_F(Runner, AMeshThatIsNotJudgedInTimeKeepsItsCountsAndSeconds) {
+  bench_.evaluate_command = {TEST_CHILD, "sleep"};
+  options_.evaluation_timeout_s = 0.3;
+  run({"mesh"});
+  const Json result = lines().at(0);
+  EXPECT_EQ(result["status"], "failed");
+  EXPECT_EQ(result["reason"],
+            "meshed, but the evaluation did not end: not done after 0.3 s; --evaluation-timeout sets that");
+  EXPECT_EQ(result["time_s"]["mesh"], 1.5);
+  EXPECT_EQ(result["counts"]["tets"], 1);
+  EXPECT_EQ(result["counts"]["vertices"], 4);
+  EXPECT_TRUE(std::filesystem::exists(options_.out_dir / result["mesh_file"].get<std::string>()));
+}
+
+TEST_F(Runner, AFileBeyondTheLimitIsAReasonAndGoes) {
+  options_.file_limit_bytes = 1000;
+  run({"garbage"});
+  const Json result = lines().at(0);
+  EXPECT_EQ(result["status"], "crashed");
+  EXPECT_EQ(result["reason"], "wrote a file beyond its limit; --file-limit sets that");
+  EXPECT_TRUE(result["mesh_file"].is_null());
+  EXPECT_TRUE(std::filesystem::is_empty(options_.out_dir / "meshes"));
+}
+
 TEST_F(Runner, ASolverIsAskedOnRequestAndItsLackIsNoFailure) {
   bench_.solve_command = {TEST_CHILD, "solve"};
   run({"mesh"});
