@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
       std::cerr << "cbc3d: " << cbc3d::one_line(meant) << '\n';
       return cbc3d::kExitBadInput;
     }
-    std::cerr << "cbc3d: " << cbc3d::one_line(error.what()) << " (see --help)\n";
+    std::cerr << "cbc3d: " << cbc3d::one_line(cbc3d::with_short_words(error.what())) << " (see --help)\n";
     return cbc3d::kExitBadInput;
   } catch (const cbc3d::OptionError& error) {
     std::cerr << "cbc3d: --" << cbc3d::one_line(error.what()) << '\n';

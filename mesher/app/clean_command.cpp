@@ -12,6 +12,8 @@
 #include "mesher/core/json_text.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_json.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/input/names_json.hpp"
 #include "mesher/pipeline/presets.hpp"
 
@@ -40,6 +42,7 @@ void run(CleanCommand& command) {
   write_label_image(image, command.out);
   nlohmann::json json = cleaning_json(report, image.frame);
   json["warnings"] = command.input.warnings;
+  json["input"] = chosen_json(command.input);
   json["label_names"] = names_json(command.input.names);
   add_names(json, command.input.names);
   if (!command.common.report_file.empty()) {
@@ -73,7 +76,7 @@ void add_clean_command(CLI::App& app, int& exit_code) {
                    "whose pre-processing: quality or paper [" + command->preset + "]")
       ->check(CLI::IsMember(preset_names()));
   add_option_flags(*clean, OptionGroup::cleaning, preset_columns(), command->settings);
-  add_image_options(*clean, command->input);
+  add_input_options(*clean, InputScope::image, command->input);
   add_report_option(*clean, command->common, "JSON file with what was changed");
   complete_command(*clean, command->common, exit_code, [command] { run(*command); });
 }

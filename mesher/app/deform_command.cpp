@@ -18,6 +18,8 @@
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_json.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/input/named_text.hpp"
 #include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
@@ -53,6 +55,7 @@ void write_report(const DeformCommand& command, const MeshImageOptions& options,
                          {"version", CBC3D_VERSION},
                          {"label_names", names_json(command.input.names)},
                          {"coordinates", command.writing.coordinates},
+                         {"input", chosen_json(command.input)},
                          {"options", options_json(options, deformation_preset_options(command.preset),
                                                   {OptionGroup::mixed, OptionGroup::deformation})},
                          {"counts", counts_json(mesh)},
@@ -141,7 +144,7 @@ void add_deform_command(CLI::App& app, int& exit_code) {
   add_coordinates_option(*deform, command->writing.coordinates);
   add_mesh_file_options(*deform, command->writing);
   add_label_array_option(*deform, command->reading);
-  add_image_options(*deform, command->input);
+  add_input_options(*deform, InputScope::image, command->input);
   add_report_option(*deform, command->common, "JSON file with options, counts and per-iteration figures");
   complete_command(*deform, command->common, exit_code, [command] { run(*command); });
 }

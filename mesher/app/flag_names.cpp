@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/input/input_options.hpp"
 #include "mesher/pipeline/option_table.hpp"
 
 namespace cbc3d {
@@ -13,24 +14,24 @@ namespace {
 using Replacement = std::pair<std::string, std::string>;
 
 /// What is no option's name: two ordinary words, switches that are named by their effect, and options of
-/// `segment`, of `improve` and of the reading of images.
+/// `segment` and of `improve`.
 const std::vector<Replacement> kPhrases = {{"manifold_voxels off", "--no-manifold-voxels"},
                                            {"connectivity vertex", "--connectivity vertex"},
                                            {"edge_gradient and contrast", "--edge-gradient and --contrast"},
                                            {"max_deviation_mm", "--max-deviation"},
-                                           {"accept_shear", "--accept-shear"},
-                                           {"round_values", "--round"},
-                                           {"many_labels", "--many-labels"},
-                                           {"long_work", "--long-work"},
                                            {"a larger work_limit_s, or 0,", "--long-work"},
-                                           {"label_array", "--label-array"},
-                                           {"volume=N", "--volume N"},
-                                           {"layer=N", "--layer N"}};
+                                           {"label_array", "--label-array"}};
 
 /// The fields of the options: their names with underscores, with a unit or without. Names of one word are
 /// left alone, for they are ordinary words too.
 std::vector<Replacement> replacements() {
   std::vector<Replacement> all = kPhrases;
+  for (const InputOption& option : input_options()) {
+    if (!option.parameter.empty()) {
+      all.emplace_back(option.parameter,
+                       "--" + option.name + (option.symbol.empty() ? "" : " " + option.symbol));
+    }
+  }
   for (const OptionRow& row : option_table()) {
     std::string field(row.name);
     std::replace(field.begin(), field.end(), '-', '_');

@@ -12,6 +12,7 @@
 #include "mesher/app/mesh_report.hpp"
 #include "mesher/app/option_flags.hpp"
 #include "mesher/app/subcommand.hpp"
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/json_text.hpp"
@@ -19,6 +20,8 @@
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_json.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/input/named_text.hpp"
 #include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
@@ -114,6 +117,7 @@ nlohmann::json report_json(const ImproveCommand& command, const ImproveGivenMesh
       {"version", CBC3D_VERSION},
       {"label_names", names_json(command.input.names)},
       {"coordinates", command.writing.coordinates},
+      {"input", chosen_json(command.input)},
       {"options",
        {{"min_dihedral_deg", options_of(command).improve.min_dihedral_deg},
         {"max_deviation_mm", report.max_deviation_mm},
@@ -177,7 +181,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
                    "most 0.9 voxel "
                    "diagonals, or half the mean surface edge]")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-9, 1e9));
   improve->add_flag(
       "--decimate,!--no-decimation", command->decimate,
       "fit the surfaces to the boundary and thin the mesh out as well; without it what is below the goal is "
@@ -185,7 +189,7 @@ void add_improve_command(CLI::App& app, int& exit_code) {
   add_coordinates_option(*improve, command->writing.coordinates);
   add_mesh_file_options(*improve, command->writing);
   add_label_array_option(*improve, command->reading);
-  add_image_options(*improve, command->input);
+  add_input_options(*improve, InputScope::image, command->input);
   add_report_option(*improve, command->common, "JSON file with counts, angles and volumes before and after");
   complete_command(*improve, command->common, exit_code, [command] { run(*command); });
 }

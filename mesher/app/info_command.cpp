@@ -10,6 +10,7 @@
 #include "mesher/core/json_text.hpp"
 #include "mesher/core/read_image.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/input/names_json.hpp"
 #include "mesher/preprocess/grey_check.hpp"
 
@@ -90,7 +91,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("info", "what is read of an image: format, size, frame in LPS mm, labels, warnings");
   info->add_option("image", command->image, kImageFormats)->required();
   info->add_flag("--json", command->json, "as JSON");
-  add_image_options(*info, command->input);
+  add_input_options(*info, InputScope::image, command->input);
   complete_command(*info, command->common, exit_code, [command] { run(*command); });
 }
 

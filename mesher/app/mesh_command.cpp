@@ -20,6 +20,8 @@
 #include "mesher/core/read_image.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_json.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/input/named_text.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/mesh_findings.hpp"
@@ -38,7 +40,6 @@ struct MeshCommand {
   MeshFileOptions writing;
   int order = 1;
   std::string dump_stages;
-  bool long_work = false;
   ImageInput input;
   CommonOptions common;
 };
@@ -54,7 +55,7 @@ void write_failure(const MeshCommand& command, const char* status, const std::st
 /// Long work needs the user's consent, but for the paper's preset, which makes elements a hundred times as
 /// fast.
 bool needs_consent(const MeshCommand& command) {
-  return !command.long_work && command.preset == preset_names().front();
+  return !command.input.long_work && command.preset == preset_names().front();
 }
 
 MeshImageOptions options_of(const MeshCommand& command, const LabelImage& image) {
@@ -117,6 +118,7 @@ void run(MeshCommand& command) {
                              .order = command.order,
                              .frame = image.frame,
                              .names = command.input.names,
+                             .input = chosen_json(command.input),
                              .coordinates = command.writing.coordinates,
                              .reading_seconds = reading.seconds()};
   MeshImageReport report;
@@ -193,10 +195,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({1, 2}));
   add_mesh_file_options(*mesh, command->writing);
   add_coordinates_option(*mesh, command->writing.coordinates);
-  add_image_options(*mesh, command->input);
-  mesh->add_flag("--long-work", command->long_work,
-                 "take a file of less than 16 KB whose boundaries look like minutes of work")
-      ->group("Input image");
+  add_input_options(*mesh, InputScope::meshing, command->input);
   add_report_option(*mesh, command->common, "JSON file with options, counts, fidelity, seconds and warnings");
   mesh->add_option("--dump-stages", command->dump_stages, "folder for the mesh after each stage")
       ->type_name("DIR");

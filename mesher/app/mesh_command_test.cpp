@@ -9,6 +9,7 @@
 
 #include "mesher/app/testing_command.hpp"
 #include "mesher/core/image_io.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/option_table.hpp"
 #include "mesher/pipeline/presets.hpp"
@@ -208,6 +209,15 @@ TEST_F(MeshCommand, DescribesTheOptionsOfEveryPreset) {
       }
     }
   }
+}
+
+TEST_F(MeshCommand, TheReportSaysWhatWasChosenOfTheImage) {
+  const Outcome outcome = run("mesh " + at("ball.nii.gz") + " --quiet --labels 1 --out " + at("m.vtu") +
+                              " --report " + at("r.json"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(at("r.json")))["input"], (nlohmann::json{{"labels", {1}}}));
+  const auto described = nlohmann::json::parse(run("mesh --describe-options").text)["input"];
+  EXPECT_EQ(described.size(), input_options().size());
 }
 
 TEST_F(MeshCommand, ASwitchThatThePresetHasOnCanBeTurnedOff) {

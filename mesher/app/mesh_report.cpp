@@ -180,6 +180,7 @@ nlohmann::json report_json(const RunDescription& run, const MeshImageReport& rep
       {"version", CBC3D_VERSION},
       {"label_names", names_json(run.names)},
       {"coordinates", run.coordinates},
+      {"input", run.input},
       {"options", used_options_json(run, report)},
       {"counts", counts_json(mesh)},
       {"cleaning", cleaning_json(report.clean, run.frame)},

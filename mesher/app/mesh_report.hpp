@@ -16,6 +16,7 @@ struct RunDescription {
   int order = 1;             ///< of the tets
   ImageFrame frame;          ///< of the image
   LabelNames names{};        ///< of its labels
+  nlohmann::json input;      ///< what was chosen of it, see chosen_json()
   std::string coordinates;   ///< of the mesh's points in its file
   double reading_seconds = 0;
   double writing_seconds = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesher/app/option_flags.hpp"
+#include "mesher/input/input_json.hpp"
 #include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d {
@@ -135,7 +136,7 @@ nlohmann::json describe_options() {
       presets.push_back(preset_description(name, mixed));
     }
   }
-  return {{"presets", presets}};
+  return {{"presets", presets}, {"input", describe_input_options()}};
 }
 
 }  // namespace cbc3d

@@ -19,7 +19,8 @@ nlohmann::json options_json(const MeshImageOptions& options, const MeshImageOpti
 ///     diagonals",
 ///      "default": 0.35, "default_text": "0.35",
 ///      "range": {"lowest": 0.01, "highest": 2, "excludes_lowest": false, "excludes_highest": false},
-///      "values": [], "text": "..."}, ...]}, ...]}
+///      "values": [], "text": "..."}, ...]}, ...],
+///    "input": as describe_input_options() has it}
 /// "kind" is number, count, switch, enumeration or label_numbers; "default" is null where it depends on the
 /// image, and "default_text" says how; "range" is null without one, its "highest" without a limit; "values"
 /// are an enumeration's.

@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "mesher/app/subcommand.hpp"
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
+#include "mesher/core/one_line.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/segment/segment_image.hpp"
 
@@ -28,15 +30,16 @@ struct SegmentCommand {
 Vec3 position(const std::string& text, const char* option) {
   std::array<double, 3> p{};
   const char* next = text.c_str();
+  constexpr double kFarthest = 1e9;  // mm, beyond every image
   bool is_good = true;
   for (std::size_t axis = 0; axis < 3 && is_good; ++axis) {
     char* end = nullptr;
     p[axis] = std::strtod(next, &end);
-    is_good = end != next && *end == (axis < 2 ? ',' : '\0') && std::isfinite(p[axis]);
+    is_good = end != next && *end == (axis < 2 ? ',' : '\0') && std::abs(p[axis]) <= kFarthest;
     next = end + 1;
   }
   if (!is_good) {
-    throw InputError(std::string(option) + " '" + text + "' is not X,Y,Z; give three numbers, mm");
+    throw InputError(std::string(option) + " '" + shortened(text) + "' is not X,Y,Z; give three numbers, mm");
   }
   return {p[0], p[1], p[2]};
 }
@@ -107,18 +110,21 @@ void add_tuning(CLI::App& segment, SegmentOptions& options) {
   segment
       .add_option("--sigma", options.sigma_mm,
                   "smoothing under gradients, mm [3/4 of the mean voxel spacing]")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-6, 1e6));
   segment
       .add_option("--edge-gradient", options.edge_gradient,
                   "gradient at the wall, grey values a mm [measured around the seeds]")
-      ->check(CLI::PositiveNumber);
-  segment.add_option("--contrast", options.contrast,
-                     "grey value inside less that outside [measured around the seeds]");
-  segment.add_option("--propagation", options.propagation, "outward push of the level set [0.6]");
+      ->check(number_between(1e-30, 1e30));
+  segment
+      .add_option("--contrast", options.contrast,
+                  "grey value inside less that outside [measured around the seeds]")
+      ->check(number_between(-1e30, 1e30));
+  segment.add_option("--propagation", options.propagation, "outward push of the level set [0.6]")
+      ->check(number_between(-1e6, 1e6));
   segment.add_option("--curvature", options.curvature, "surface tension of the level set [0.1]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_between(0, 1e6));
   segment.add_option("--iterations", options.iterations, "of the level set, at most [200]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number_between(0, 1000000));
 }
 
 }  // namespace
@@ -140,8 +146,8 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   segment->add_option("-o,--out", command->out, "label image: .nii, .nii.gz, .nrrd or .mha")->required();
   segment
       ->add_option("--volume", command->options.volume, "volume of a 4-D image, counted from 0 [a 3-D image]")
-      ->check(CLI::NonNegativeNumber);
-  segment->add_option("--label", command->label, "of the structure [1]");
+      ->check(whole_number_between(0, 1000000));
+  segment->add_option("--label", command->label, "of the structure [1]")->check(label_value());
   segment->add_option("--merge", command->merge, "label image that the structure is put into");
   segment->add_flag("--overwrite", command->overwrite,
                     "with --merge: also where that image has a label [only its background]");

@@ -1,5 +1,6 @@
 #include "mesher/app/subcommand.hpp"
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
@@ -14,7 +15,7 @@ void complete_command(CLI::App& command, CommonOptions& common, int& exit_code,
                       const std::function<void()>& run) {
   command.add_option("--threads", common.threads, "threads of all pools [all cores]")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(thread_count());
   command.add_flag("--quiet", common.quiet, "no progress");
   command.callback([&common, &exit_code, run] {
     common.threads = set_thread_count(common.threads);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 
+#include "mesher/app/tiff_directories.hpp"
 #include "mesher/core/error.hpp"
 
 namespace cbc3d {
@@ -109,7 +110,11 @@ bool is_tiff(const std::string& file) {
 }
 
 std::size_t count_tiff_pages(const std::string& file) {
-  return TIFFNumberOfDirectories(open(file).get());
+  const std::size_t count = require_whole_tiff(file);
+  if (count == 0 || TIFFNumberOfDirectories(open(file).get()) != count) {
+    fail(file, "a broken TIFF file: its pages cannot be counted; copy it again");
+  }
+  return count;
 }
 
 TiffPage read_tiff_page(const std::string& file, std::size_t number) {

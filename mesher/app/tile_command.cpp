@@ -12,9 +12,11 @@
 #include <span>
 #include <sstream>
 
+#include "mesher/app/bmp_header.hpp"
 #include "mesher/app/natural_order.hpp"
 #include "mesher/app/subcommand.hpp"
 #include "mesher/app/tiff_pages.hpp"
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/child_process.hpp"
 #include "mesher/core/error.hpp"
@@ -151,6 +153,9 @@ Slice read_slice(const std::string& file, std::size_t page, bool luminance) {
     return read_tiff_slice(file, page, luminance);
   }
   require_no_palette(file);
+  if (is_bmp(file)) {
+    require_whole_bmp(file);
+  }
   const auto io = reader_of(file);
   Slice slice;
   ChildProcess child(limits_of(file), [&](const ChildOutput& out) { read_and_send(*io, file, out); });
@@ -235,11 +240,6 @@ void require_good(const TileCommand& command) {
     throw InputError("--out '" + command.out + "' has an unknown extension; give .nrrd or .mha");
   }
   require_writable(command.out);
-  for (const double spacing : command.spacing_mm) {
-    if (!(spacing > 0) || !std::isfinite(spacing)) {
-      throw InputError("--spacing " + triple(command.spacing_mm, ",") + " is not positive; give mm, X,Y,Z");
-    }
-  }
 }
 
 /// A slice of the volume: a file, or a page of one.
@@ -321,10 +321,12 @@ void add_tile_command(CLI::App& app, int& exit_code) {
   tile->add_option("--spacing", command->spacing_mm, "X,Y,Z: distance of pixels and of slices, mm")
       ->required()
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(number_between(1e-6, 1e6));
   tile->add_option("--origin", command->origin_mm, "X,Y,Z: centre of the first voxel, LPS mm [0,0,0]")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(number_between(-1e9, 1e9));
   tile->add_flag("--natural-order", command->natural_order,
                  "sort the slices by the numbers in their names, s2 before s10 [the order given]");
   tile->add_flag("--luminance", command->luminance,

@@ -68,6 +68,15 @@ std::vector<double> values_of_materials(const std::vector<Label>& labels,
 
 bool is_boundary_voxel(const LabelImage& image, int i, int j, int k) {
   const MaterialId own = image.at(i, j, k);
+  const Index3& size = image.frame.size;
+  if (i > 0 && j > 0 && k > 0 && i + 1 < size[0] && j + 1 < size[1] && k + 1 < size[2]) {
+    const std::size_t at = image.frame.offset(i, j, k);
+    const auto row = static_cast<std::size_t>(size[0]);
+    const std::size_t slice = row * static_cast<std::size_t>(size[1]);
+    const LabelVoxels& voxels = image.voxels;
+    return voxels[at - 1] != own || voxels[at + 1] != own || voxels[at - row] != own ||
+           voxels[at + row] != own || voxels[at - slice] != own || voxels[at + slice] != own;
+  }
   return image.at_or_background(i - 1, j, k) != own || image.at_or_background(i + 1, j, k) != own ||
          image.at_or_background(i, j - 1, k) != own || image.at_or_background(i, j + 1, k) != own ||
          image.at_or_background(i, j, k - 1) != own || image.at_or_background(i, j, k + 1) != own;

@@ -1,6 +1,7 @@
 #include "mesher/domain/image_domain.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -71,15 +72,7 @@ Index3 neighbour_across(Index3 at, std::size_t side) {
 void add_candidates(const LabelImage& image, int k, std::vector<std::size_t>& candidates) {
   const auto is_candidate = [&](const Index3& at) {
     const MaterialId own = image.at(at[0], at[1], at[2]);
-    bool any_other = false;
-    bool all_thick = true;
-    for (std::size_t side = 0; side < 6; ++side) {
-      const Index3 next = neighbour_across(at, side);
-      any_other = any_other || image.at_or_background(next[0], next[1], next[2]) != own;
-    }
-    if (!any_other || !is_thin_at(image, at)) {
-      return false;
-    }
+    bool all_thick = is_thin_at(image, at);
     for (std::size_t side = 0; side < 6 && all_thick; ++side) {
       const Index3 next = neighbour_across(at, side);
       all_thick = image.at_or_background(next[0], next[1], next[2]) != own || !is_thin_at(image, next);
@@ -88,7 +81,7 @@ void add_candidates(const LabelImage& image, int k, std::vector<std::size_t>& ca
   };
   for (int j = 0; j < image.frame.size[1]; ++j) {
     for (int i = 0; i < image.frame.size[0]; ++i) {
-      if (is_candidate({i, j, k})) {
+      if (is_boundary_voxel(image, i, j, k) && is_candidate({i, j, k})) {
         candidates.push_back(image.frame.offset(i, j, k));
       }
     }
@@ -114,6 +107,38 @@ bool is_simple_bump(const LabelImage& image, const std::vector<std::size_t>& bum
   return is_simple(around);
 }
 
+/// The field of two materials in a cell between eight voxel centres, as a thread last found it. The steps of
+/// a vertex and the facets at it stay in a few cells, so that most fields are asked for again at once.
+struct KnownField {
+  std::uint64_t domain = 0;  // its number; 0: nothing is known
+  Index3 low{};
+  std::array<MaterialId, 2> materials{};
+  bool is_near = false;
+  std::array<double, 8> corner{};
+
+  [[nodiscard]] bool is_of(std::uint64_t number, const Index3& at, MaterialId a, MaterialId b) const {
+    return domain == number && low == at && materials[0] == a && materials[1] == b;
+  }
+};
+
+/// Where the field is kept, one place for many cells.
+KnownField& known_field(const Index3& low, MaterialId a, MaterialId b) {
+  constexpr std::size_t kPlaces = 256;
+  static thread_local std::array<KnownField, kPlaces> known;
+  const auto part = [](int value, std::uint32_t factor) {
+    return static_cast<std::uint32_t>(value) * factor;
+  };
+  const std::uint32_t mixed =
+      part(low[0], 1) + part(low[1], 7) + part(low[2], 49) + part(a, 101) + part(b, 37);
+  return known[mixed % kPlaces];
+}
+
+/// Numbers domains from 1 on, so that a new one in an old one's memory is not taken for it.
+std::uint64_t next_number() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 std::vector<std::size_t> find_bumps(const LabelImage& image) {
   std::vector<std::vector<std::size_t>> of_slice(static_cast<std::size_t>(image.frame.size[2]));
 #pragma omp parallel for schedule(dynamic)
@@ -136,6 +161,7 @@ std::vector<std::size_t> find_bumps(const LabelImage& image) {
 ImageDomain::ImageDomain(const LabelImage& image, const ImageDomainOptions& options)
     : image_(image),
       options_(options),
+      number_(next_number()),
       label_of_(first_of_label(image)),
       voxel_mm_(std::cbrt(image.frame.spacing_mm.x * image.frame.spacing_mm.y * image.frame.spacing_mm.z)) {}
 
@@ -220,6 +246,19 @@ double ImageDomain::clamped(double value, const std::array<signed char, 64>& sid
 
 bool ImageDomain::corners(const Index3& low, MaterialId a, MaterialId b,
                           std::array<double, 8>& corner) const {
+  KnownField& known = known_field(low, a, b);
+  if (!known.is_of(number_, low, a, b)) {
+    known.domain = number_;
+    known.low = low;
+    known.materials = {a, b};
+    known.is_near = find_corners(low, a, b, known.corner);
+  }
+  corner = known.corner;
+  return known.is_near;
+}
+
+bool ImageDomain::find_corners(const Index3& low, MaterialId a, MaterialId b,
+                               std::array<double, 8>& corner) const {
   std::array<signed char, 64> side{};
   const Index3& size = image_.frame.size;
   const bool inside = low[0] >= 1 && low[1] >= 1 && low[2] >= 1 && low[0] + 2 < size[0] &&

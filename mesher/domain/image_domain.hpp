@@ -63,6 +63,8 @@ class ImageDomain : public Domain {
   /// The smoothed and clamped field at the eight voxel centres from `low` on; false where a or b is in none
   /// of the 4x4x4 voxels around them: what the field says there of a third material means nothing.
   bool corners(const Index3& low, MaterialId a, MaterialId b, std::array<double, 8>& corner) const;
+  /// The same, computed; corners() keeps what a thread asked for last.
+  bool find_corners(const Index3& low, MaterialId a, MaterialId b, std::array<double, 8>& corner) const;
   [[nodiscard]] double clamped(double value, const std::array<signed char, 64>& side, int at,
                                const Index3& voxel) const;
   /// By way of the nearest voxels of a and of b.
@@ -70,6 +72,7 @@ class ImageDomain : public Domain {
 
   const LabelImage& image_;
   ImageDomainOptions options_;
+  std::uint64_t number_;  // of this domain, which no other has
   std::vector<MaterialId> label_of_;
   double voxel_mm_;  // geometric mean of the spacings
   mutable std::once_flag voxels_once_;

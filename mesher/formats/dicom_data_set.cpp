@@ -200,6 +200,9 @@ bool is_dicom(std::string_view head) {
 }
 
 DicomDataSet parse_dicom(std::string_view file) {
+  if (file.size() < kMagicEnd) {
+    throw FormatError("it ends within the preamble of DICOM (truncated); copy it again");
+  }
   Cursor cursor(file.substr(kMagicEnd));
   const bool is_explicit = is_explicit_syntax(take_transfer_syntax(cursor));
   return take_data_set(cursor, is_explicit, 0, false);

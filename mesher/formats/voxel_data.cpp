@@ -134,13 +134,14 @@ std::string rest_of(ByteStream& stream) {
   return text;
 }
 
+constexpr std::string_view kBetweenValues = " \t\r\n,;";
+
 template <typename T>
 void parse_values(const std::string& text, std::span<std::uint8_t> out) {
-  constexpr std::string_view kBetween = " \t\r\n,;";
   const std::size_t count = out.size() / sizeof(T);
-  std::size_t at = text.find_first_not_of(kBetween), read = 0;
+  std::size_t at = text.find_first_not_of(kBetweenValues), read = 0;
   for (; at != std::string::npos; ++read) {
-    const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
+    const std::size_t end = std::min(text.find_first_of(kBetweenValues, at), text.size());
     T value{};
     const auto [stop, error] = std::from_chars(text.data() + at, text.data() + end, value);
     if (error != std::errc() || stop != text.data() + end) {
@@ -150,7 +151,7 @@ void parse_values(const std::string& text, std::span<std::uint8_t> out) {
     if (read < count) {
       std::memcpy(out.data() + read * sizeof(T), &value, sizeof(T));
     }
-    at = text.find_first_not_of(kBetween, end);
+    at = text.find_first_not_of(kBetweenValues, end);
   }
   if (read != count) {
     throw FormatError("its header promises " + std::to_string(count) + " values, but the file has " +
@@ -207,6 +208,14 @@ void parse_hex(const std::string& text, std::span<std::uint8_t> out) {
   }
 }
 
+/// A last value of which digits were cut off is a value too, unless something stands behind it.
+void warn_of_open_end(ImageHeader& header, const std::string& text) {
+  if (!text.empty() && kBetweenValues.find(text.back()) == std::string_view::npos) {
+    header.warnings.push_back(
+        "no end of line follows its last value, so that it is not known whether digits of that are missing");
+  }
+}
+
 void read_text(ImageHeader& header, const DataFile& file, std::span<std::uint8_t> out) {
   const auto stream = open_voxels(header, file, out.size());
   const std::string text = rest_of(*stream);
@@ -214,6 +223,7 @@ void read_text(ImageHeader& header, const DataFile& file, std::span<std::uint8_t
     parse_hex(text, out);
   } else {
     parse_text(header.component, text, out);
+    warn_of_open_end(header, text);
   }
 }
 

@@ -1,8 +1,7 @@
 // The image that a command reads: what is not refused, which volume and labels are taken, what they are
-// called.
+// called. The flags of these choices are in input_options.hpp.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -18,17 +17,12 @@ inline constexpr const char* kImageFormats =
 struct ImageInput {
   ReadImageOptions read{};
   bool many_labels = false;  ///< an image that looks grey is taken
+  bool long_work = false;    ///< a small file that asks for minutes of work is meshed
   std::string names_file{};  ///< a table of names; empty: the image's own, or the table beside it
   LabelChoice choice{};
   LabelNames names{};                   ///< of the labels that are taken; known once the image is read
   std::vector<std::string> warnings{};  ///< of the reading
 };
-
-/// Adds --accept-shear, --round, --volume, --layer, --labels, --keep-rest, --background and --names.
-void add_reading_options(CLI::App& command, ImageInput& input);
-
-/// The same and --many-labels.
-void add_image_options(CLI::App& command, ImageInput& input);
 
 /// Reads the label image, its names and those of a table, and takes what was chosen; what was taken for
 /// granted is added to the input's warnings. Names come from the table that was asked for, otherwise from the

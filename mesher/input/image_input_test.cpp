@@ -55,22 +55,5 @@ TEST_F(ImageInputTest, ChoicesAndNamesGoTogether) {
   EXPECT_EQ(input.names.find(1), nullptr);
 }
 
-TEST_F(ImageInputTest, OptionsAreOfTheCommandLine) {
-  CLI::App app;
-  ImageInput input;
-  std::string image;
-  app.add_option("image", image);
-  add_image_options(app, input);
-  app.parse(
-      "--labels 2,5 --background 0,1 --volume 3 --layer 1 --keep-rest --names n.tsv --many-labels a.nrrd");
-  EXPECT_EQ(input.choice.labels, (std::vector<Label>{2, 5}));
-  EXPECT_EQ(input.choice.background, (std::vector<Label>{0, 1}));
-  EXPECT_EQ(input.read.volume, 3);
-  EXPECT_EQ(input.read.layer, 1);
-  EXPECT_TRUE(input.choice.keep_rest && input.many_labels);
-  EXPECT_EQ(input.names_file, "n.tsv");
-  EXPECT_EQ(image, "a.nrrd");
-}
-
 }  // namespace
 }  // namespace cbc3d

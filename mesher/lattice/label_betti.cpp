@@ -19,24 +19,25 @@ class LabelSurfaces {
     facets_.push_back({label, corners, volume});
   }
 
+  /// Adds the facets of another after those that are there.
+  void add(const LabelSurfaces& other) {
+    facets_.insert(facets_.end(), other.facets_.begin(), other.facets_.end());
+  }
+
   [[nodiscard]] std::map<Label, Betti> betti() const {
     const std::vector<Corner> corners = distinct_corners();
-    const auto number_of = [&](const Facet& facet, std::size_t c) {
-      const auto found =
-          std::lower_bound(corners.begin(), corners.end(), Corner{facet.label, facet.corners[c]});
-      return static_cast<std::uint32_t>(found - corners.begin());
-    };
+    const std::vector<Numbers> numbers = numbers_in(corners);
     DisjointSets sets(corners.size());
-    for (const Facet& facet : facets_) {
+    for (const Numbers& of_facet : numbers) {
       for (std::size_t c = 1; c < kCorners; ++c) {
-        sets.join(number_of(facet, 0), number_of(facet, c));
+        sets.join(of_facet[0], of_facet[c]);
       }
     }
     std::vector<double> volume(corners.size(), 0);
     std::map<Label, std::ptrdiff_t> facets;
-    for (const Facet& facet : facets_) {
-      volume[sets.root(number_of(facet, 0))] += facet.volume;
-      ++facets[facet.label];
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      volume[sets.root(numbers[f][0])] += facets_[f].volume;
+      ++facets[facets_[f].label];
     }
     std::map<Label, Betti> result;
     // Of the surface: corners less edges, each of two facets, plus facets.
@@ -64,6 +65,7 @@ class LabelSurfaces {
     double volume;
   };
   using Corner = std::pair<Label, std::size_t>;
+  using Numbers = std::array<std::uint32_t, kCorners>;
 
   [[nodiscard]] std::vector<Corner> distinct_corners() const {
     std::vector<Corner> corners;
@@ -76,6 +78,20 @@ class LabelSurfaces {
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     return corners;
+  }
+
+  /// Of each facet's corners, their places among the distinct ones.
+  [[nodiscard]] std::vector<Numbers> numbers_in(const std::vector<Corner>& corners) const {
+    std::vector<Numbers> numbers(facets_.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      for (std::size_t c = 0; c < kCorners; ++c) {
+        const Corner corner = {facets_[f].label, facets_[f].corners[c]};
+        numbers[f][c] = static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), corner) -
+                                                   corners.begin());
+      }
+    }
+    return numbers;
   }
 
   std::vector<Facet> facets_;
@@ -100,26 +116,39 @@ std::array<std::size_t, 4> side_corners(const ImageFrame& frame, const Index3& a
   return corners;
 }
 
+/// Adds the sides of a labelled voxel that its label ends at.
+void add_sides(const LabelImage& image, const std::vector<Label>& labels, const Index3& at,
+               LabelSurfaces<4>& surfaces) {
+  const Label label = labels[image.at(at[0], at[1], at[2])];
+  for (std::size_t axis = 0; axis < 3 && label != 0; ++axis) {
+    for (const int step : {-1, 1}) {
+      Index3 next = at;
+      next[axis] += step;
+      if (labels[image.at_or_background(next[0], next[1], next[2])] != label) {
+        // The cone from the corner of the image: its height is the side's place along the axis.
+        surfaces.add(label, side_corners(image.frame, at, axis, step), step > 0 ? at[axis] + 1 : -at[axis]);
+      }
+    }
+  }
+}
+
 /// By the labels that `labels` gives to the materials.
 std::map<Label, Betti> betti_of(const LabelImage& image, const std::vector<Label>& labels) {
-  LabelSurfaces<4> surfaces;
-  const ImageFrame& frame = image.frame;
-  for (std::size_t offset = 0; offset < frame.voxel_count(); ++offset) {
-    const Label label = labels[image.voxels[offset]];
-    if (label == 0) {
-      continue;
-    }
-    const Index3 at = frame.index_of(offset);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const int step : {-1, 1}) {
-        Index3 next = at;
-        next[axis] += step;
-        if (labels[image.at_or_background(next[0], next[1], next[2])] != label) {
-          // The cone from the corner of the image: its height is the side's place along the axis.
-          surfaces.add(label, side_corners(frame, at, axis, step), step > 0 ? at[axis] + 1 : -at[axis]);
+  const Index3& size = image.frame.size;
+  std::vector<LabelSurfaces<4>> of_slice(static_cast<std::size_t>(size[2]));
+#pragma omp parallel for schedule(dynamic)
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i) {
+        if (is_boundary_voxel(image, i, j, k)) {
+          add_sides(image, labels, {i, j, k}, of_slice[static_cast<std::size_t>(k)]);
         }
       }
     }
+  }
+  LabelSurfaces<4> surfaces;
+  for (const LabelSurfaces<4>& slice : of_slice) {
+    surfaces.add(slice);
   }
   return surfaces.betti();
 }
@@ -129,6 +158,11 @@ std::vector<Label> numbers_of(std::size_t materials) {
   std::vector<Label> numbers(materials);
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
+}
+
+bool are_distinct(std::vector<Label> labels) {
+  std::sort(labels.begin(), labels.end());
+  return std::adjacent_find(labels.begin(), labels.end()) == labels.end();
 }
 
 }  // namespace
@@ -184,14 +218,19 @@ std::vector<Label> labels_of(const std::vector<LabelDifference>& differences) {
 }
 
 ImageBetti::ImageBetti(const LabelImage& image)
-    : labels_(image.labels),
-      of_labels_(betti_of_labels(image)),
-      of_materials_(betti_of(image, numbers_of(labels_.size()))) {}
+    : labels_(image.labels), of_labels_(betti_of_labels(image)), has_regions_(!are_distinct(labels_)) {
+  if (has_regions_) {
+    of_materials_ = betti_of(image, numbers_of(labels_.size()));
+  }
+}
 
 std::vector<Label> ImageBetti::unlike_labels(const CandidateMesh& mesh,
                                              const std::vector<Vec3>& points) const {
   std::vector<Label> unlike =
       labels_of(label_differences(of_labels_, betti_of_labels(mesh, points, labels_)));
+  if (!has_regions_) {
+    return unlike;
+  }
   const auto of_materials = betti_of_labels(mesh, points, numbers_of(labels_.size()));
   for (const Label material : labels_of(label_differences(of_materials_, of_materials))) {
     unlike.push_back(labels_[static_cast<std::size_t>(material)]);

@@ -57,6 +57,7 @@ class ImageBetti {
  private:
   std::vector<Label> labels_;
   std::map<Label, Betti> of_labels_;
+  bool has_regions_;                     // some label has several materials; without, of_labels_ says all
   std::map<Label, Betti> of_materials_;  // by the material's number
 };
 

@@ -92,6 +92,7 @@ class AbaqusReader {
   Mesh read() {
     while (!file_.at_end()) read_line();
     require_whole_element();
+    require_stated_counts();
     take_sets_of_elsets();
     const std::vector<Label> labels = labels_of_sets();
     for (const Element& element : elements_) {
@@ -113,6 +114,7 @@ class AbaqusReader {
   void read_line() {
     const std::string_view line = file_.line();
     if (line.starts_with("**")) return read_comment(line);
+    require_end_of_line();
     if (line.starts_with('*')) return read_keyword(Keyword(line.substr(1)));
     if (line.find_first_not_of(" \t") == std::string_view::npos) return;
     switch (data_) {
@@ -127,8 +129,36 @@ class AbaqusReader {
     }
   }
 
+  /// Digits may be missing at the end of a file.
+  void require_end_of_line() {
+    if (data_ != Data::other && file_.at_end() && !file_.ends_a_line()) {
+      file_.fail("its last line has no end; the file is truncated, or needs an end of line");
+    }
+  }
+
+  /// "** NODES 8, ELEMENTS 5": what our writer says, for the format itself has no counts.
+  void read_counts(std::string_view line) {
+    const std::vector<std::string_view> fields = fields_of(line);
+    constexpr std::string_view kNodes = "** NODES ", kElements = "ELEMENTS ";
+    if (fields.size() != 2 || !fields[0].starts_with(kNodes) || !fields[1].starts_with(kElements)) return;
+    stated_nodes_ = file_.integer_of(fields[0].substr(kNodes.size()), "comment on counts");
+    stated_elements_ = file_.integer_of(fields[1].substr(kElements.size()), "comment on counts");
+  }
+
+  void require_stated_counts() const {
+    const auto require = [this](std::optional<std::int64_t> stated, std::size_t found, const char* what) {
+      if (stated && *stated > static_cast<std::int64_t>(found)) {
+        file_.fail("it promises " + std::to_string(*stated) + what + " and has " + std::to_string(found) +
+                   "; the file is truncated, export it again (or remove the comment ** NODES)");
+      }
+    };
+    require(stated_nodes_, builder_.node_count(), " nodes");
+    require(stated_elements_, elements_.size(), " volume elements");
+  }
+
   /// "** LABEL 5 = liver"
   void read_comment(std::string_view line) {
+    read_counts(line);
     constexpr std::string_view kBegin = "** LABEL ";
     const std::size_t equals = line.find(" = ");
     if (!line.starts_with(kBegin) || equals == std::string_view::npos || equals < kBegin.size()) return;
@@ -303,6 +333,7 @@ class AbaqusReader {
   std::vector<std::string> set_names_, elset_names_;
   std::vector<std::size_t> set_of_elset_;  // of every *ELSET, once an element is in it
   std::map<std::string, Label> stated_;
+  std::optional<std::int64_t> stated_nodes_, stated_elements_;
   std::vector<Range> ranges_;
 };
 

@@ -58,6 +58,16 @@ TEST_F(AbaqusReading, RefusesWhatIsNoMeshWithLabels) {
   }
 }
 
+/// What our writer states.
+TEST_F(AbaqusReading, FewerNodesOrElementsThanStatedAreRefused) {
+  const auto with = [&](const std::string& counts) { return "** NODES " + counts + "\n" + kNodes + kTwo; };
+  EXPECT_EQ(labels_in(with("5, ELEMENTS 2")).size(), 2U);
+  EXPECT_EQ(labels_in(with("4, ELEMENTS 1")).size(), 2U) << "more were added";
+  EXPECT_THROW(labels_in(with("6, ELEMENTS 2")), InputError);
+  EXPECT_THROW(labels_in(with("5, ELEMENTS 3")), InputError);
+  EXPECT_THROW(labels_in(with("5, ELEMENTS x")), InputError);
+}
+
 /// The format has no end and no counts, so that a cut between two elements of a mesh is not seen; every other
 /// is.
 TEST_F(AbaqusReading, DamageEndsInAMeshOrALine) {

@@ -15,6 +15,11 @@ void add_labels(TextFile& out, const FileMesh& mesh, const LabelNames& names) {
   }
 }
 
+/// The format has no counts, so that our reader could not tell a file that is cut short between two elements.
+void add_counts(TextFile& out, const FileMesh& mesh) {
+  out.add("** NODES ", mesh.points().size(), ", ELEMENTS ", mesh.cell_count(), '\n');
+}
+
 void add_nodes(TextFile& out, const FileMesh& mesh) {
   out.add("*NODE, NSET=ALL_NODES\n");
   for (std::size_t v = 0; v < mesh.points().size(); ++v) {
@@ -59,6 +64,7 @@ void write_abaqus(const FileMesh& mesh, const std::filesystem::path& path, const
   TextFile out(path, kDigits);
   out.add("*HEADING\nCBC3D mesh, coordinates ", options.coordinates,
           options.coordinates == "voxel" ? "" : ", mm", '\n');
+  add_counts(out, mesh);
   add_labels(out, mesh, options.names);
   add_nodes(out, mesh);
   add_elements(out, mesh, options.names);

@@ -16,6 +16,8 @@ class FileText {
   explicit FileText(const std::filesystem::path& path);
 
   [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }
+  /// True where the byte before this place ends a line.
+  [[nodiscard]] bool ends_a_line() const { return at_ > 0 && text_[at_ - 1] == '\n'; }
   [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
   /// The rest of the line without its end; empty at the end of the file.
   std::string_view line();

@@ -23,6 +23,7 @@ class MeshBuilder {
   /// Fails for a number that is there already.
   void add_node(std::int64_t number, const Vec3& at);
   [[nodiscard]] bool has_nodes() const { return !mesh_.points.empty(); }
+  [[nodiscard]] std::size_t node_count() const { return mesh_.points.size(); }
   /// A cell by the numbers of its nodes; fails where one is not there.
   void add_cell(CellKind kind, std::span<const std::int64_t> numbers, Label label);
   /// The mesh; fails where it has no cells.

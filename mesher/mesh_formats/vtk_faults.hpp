@@ -3,6 +3,7 @@
 
 #include <vtkCommand.h>
 #include <vtkLogger.h>
+#include <vtkOutputWindow.h>
 
 #include <string>
 
@@ -18,6 +19,17 @@ class VtkFaults : public vtkCommand {
     }
   }
   std::string text;  ///< of the first fault
+};
+
+/// Some of VTK's readers report a file that ends too early to VTK's window of messages alone, which this
+/// takes the place of.
+class VtkWindow : public vtkOutputWindow {
+ public:
+  static VtkWindow* New() { return new VtkWindow; }
+  void DisplayText(const char* /*text*/) override {}
+  void DisplayErrorText(const char* /*text*/) override { faulty = true; }
+  void DisplayGenericWarningText(const char* /*text*/) override { faulty = true; }
+  bool faulty = false;
 };
 
 /// VTK also prints its faults itself, in many lines; this silences it, so that the user gets our one

@@ -17,5 +17,13 @@ TEST(VtkFaults, KeepTheFirst) {
   EXPECT_EQ(faults->text, "first");
 }
 
+TEST(VtkFaults, TheWindowKeepsThatThereWasAFault) {
+  vtkNew<VtkWindow> window;
+  window->DisplayWarningText("of no weight");
+  EXPECT_FALSE(window->faulty);
+  window->DisplayGenericWarningText("Error reading binary data!");
+  EXPECT_TRUE(window->faulty);
+}
+
 }  // namespace
 }  // namespace cbc3d

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -215,11 +216,13 @@ void read_and_send(const fs::path& path, const std::string& label_array, const C
   const VtkSilence silence;
   vtkNew<Reader> reader;
   vtkNew<VtkFaults> faults;
+  vtkNew<VtkWindow> window;
+  vtkOutputWindow::SetInstance(window);  // of this child process
   reader->AddObserver(vtkCommand::ErrorEvent, faults);
   reader->SetFileName(path.c_str());
   const std::string arrays = select_label_array(*reader, label_array);
   reader->Update();
-  send_grid(faults->text.empty() ? reader->GetOutput() : nullptr, label_array, arrays,
+  send_grid(faults->text.empty() && !window->faulty ? reader->GetOutput() : nullptr, label_array, arrays,
             space_in_title(*reader), out);
 }
 
@@ -242,6 +245,34 @@ ChildLimits limits_of(const fs::path& path) {
                  (others.empty()
                       ? "; add one integer label for each cell"
                       : ", but " + others.substr(0, 200) + "; name the one with the labels by label_array"));
+}
+
+std::string bytes_of(const fs::path& path, std::uint64_t from, std::size_t count) {
+  std::string bytes(count, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(from));
+  in.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+  return bytes;
+}
+
+/// VTK's readers take a file that ends within its last array, or within a number, for another mesh. XML has
+/// an end that is named; text has an end of its last line.
+void require_end(const fs::path& path, VtkFormat format) {
+  constexpr std::size_t kHead = 1024, kTail = 1024;
+  const std::uint64_t length = fs::file_size(path);
+  const std::string tail = bytes_of(path, length - std::min<std::uint64_t>(length, kTail), kTail);
+  if (format == VtkFormat::xml) {
+    if (tail.find("</VTKFile>") == std::string::npos) {
+      fail(path, "it does not end with </VTKFile>; the file is truncated, write it again");
+    }
+    return;
+  }
+  const std::string head = bytes_of(path, 0, kHead);
+  const bool is_text = head.find("\nASCII") != std::string::npos;
+  if (is_text && !tail.ends_with('\n')) {
+    fail(path, "its last line has no end; the file is truncated, write it again");
+  }
 }
 
 GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs::path& path,
@@ -274,6 +305,7 @@ GridArrays receive_grid(ChildProcess& child, std::uint64_t most_bytes, const fs:
 Mesh read_vtk(const fs::path& path, VtkFormat format, const std::string& label_array,
               MeshFileOptions& stated) {
   const std::string array = label_array.empty() ? kLabelArray : label_array;
+  require_end(path, format);
   const ChildLimits limits = limits_of(path);
   ChildProcess child(limits, [&](const ChildOutput& out) {
     format == VtkFormat::xml ? read_and_send<vtkXMLUnstructuredGridReader>(path, array, out)

@@ -6,11 +6,12 @@
 namespace cbc3d {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr NumberRange kPositive{.lowest = 0, .highest = kNoLimit, .excludes_lowest = true};
+/// Beyond every length of an image, whose origin is within 1e9 mm.
+constexpr double kMost = 1e9;
+constexpr NumberRange kPositive{.lowest = 0, .highest = kMost, .excludes_lowest = true};
 constexpr NumberRange kStiffness{
     .lowest = 0, .highest = 1e12, .excludes_lowest = true, .excludes_highest = true};
-constexpr NumberRange kNotNegative{.lowest = 0, .highest = kNoLimit};
+constexpr NumberRange kNotNegative{.lowest = 0, .highest = kMost};
 constexpr NumberRange kShare{.lowest = 0, .highest = 1};
 
 /// Names of an enumeration's values.
@@ -139,12 +140,11 @@ std::vector<OptionRow> cleaning_rows() {
            .text = "leave voxels of a label that touch only by an edge or a vertex as they are",
            .negates_field = true},
           [](auto& o) -> auto& { return o.clean.manifold_voxels; }),
-      count(
-          {.name = "seed",
-           .group = kGroup,
-           .symbol = "N",
-           .text = "seed of the choice among cleaning templates"},
-          [](auto& o) -> auto& { return o.clean.seed; }, kNotNegative),
+      count({.name = "seed",
+             .group = kGroup,
+             .symbol = "N",
+             .text = "seed of the choice among cleaning templates"},
+            [](auto& o) -> auto& { return o.clean.seed; }, {.lowest = 0, .highest = 9e18}),
   };
 }
 

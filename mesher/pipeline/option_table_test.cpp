@@ -68,7 +68,7 @@ TEST(OptionTable, SetsOneFieldAndLeavesTheOthers) {
 TEST(OptionTable, RefusesWhatIsOutOfRangeNamingParameterValueAndRange) {
   EXPECT_EQ(refusal("fidelity", "2"), "fidelity 2: give a number in [1e-06, 1]");
   EXPECT_EQ(refusal("iterations", "2.5"), "iterations 2.5: give a whole number in [0, 1000]");
-  EXPECT_EQ(refusal("lattice-spacing", "0"), "lattice-spacing 0: give a number above 0");
+  EXPECT_EQ(refusal("lattice-spacing", "0"), "lattice-spacing 0: give a number in (0, 1e+09]");
   EXPECT_EQ(refusal("mixed", "yes"), "mixed yes: give true or false");
   EXPECT_EQ(refusal("relabel-noise", "all"), "relabel-noise all: give none, holes, specks or both");
   EXPECT_EQ(refusal("material-fidelity", "2:1"),

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "mesher/core/one_line.hpp"
 #include "mesher/pipeline/option_table.hpp"
 
 namespace cbc3d {
@@ -55,7 +56,7 @@ std::string remedy(const OptionRow& row) {
 }
 
 [[noreturn]] void refuse(const OptionRow& row, const OptionValue& value) {
-  throw OptionError(row.name + " " + value_text(value) + ": " + remedy(row));
+  throw OptionError(row.name + " " + shortened(value_text(value)) + ": " + remedy(row));
 }
 
 /// None where the value is no number.
@@ -161,7 +162,7 @@ const OptionRow& find_option(std::string_view name) {
     if (row.name == wanted) return row;
     known.push_back(row.name);
   }
-  throw OptionError(wanted + ": no such option; there are " + joined(known, " and "));
+  throw OptionError(shortened(wanted) + ": no such option; there are " + joined(known, " and "));
 }
 
 OptionValue checked_value(const OptionRow& row, const OptionValue& value) {

@@ -9,6 +9,7 @@
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/input/named_text.hpp"
 #include "mesher/input/names_json.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
@@ -194,7 +195,7 @@ Command add_evaluate_command(CLI::App& app) {
   parser->add_option("--solve-timeout", options->solve_timeout_s, "time limit of that process, s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  add_reading_options(*parser, options->input);
+  add_input_options(*parser, InputScope::reading, options->input);
   parser
       ->add_option(
           "--label-array", options->mesh_reading.label_array,

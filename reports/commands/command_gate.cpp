@@ -14,12 +14,14 @@ namespace {
 struct GateOptions {
   std::string folder, baseline, junit, reason;
   int threads = 0;
-  bool quiet = false;
+  bool quiet = false, test_times = false, partial = false;
+  TimeTest time_test;
 };
 
 int update(const GateOptions& options, const std::vector<JobResult>& results) {
   const Json former = std::filesystem::exists(options.baseline) ? read_baseline(options.baseline) : Json();
-  write_text_file(options.baseline, make_baseline(results, former, options.reason).dump(1) + "\n");
+  write_text_file(options.baseline,
+                  make_baseline(results, former, options.reason, options.partial).dump(1) + "\n");
   if (!options.quiet) {
     std::cout << "wrote the baseline '" << options.baseline << "': " << options.reason << '\n';
   }
@@ -50,7 +52,9 @@ int gate(const GateOptions& options) {
   if (!options.reason.empty()) {
     return update(options, results);
   }
-  const Verdict verdict = compare(results, read_baseline(options.baseline));
+  const CompareOptions how{options.test_times ? std::optional(options.time_test) : std::nullopt,
+                           options.partial};
+  const Verdict verdict = compare(results, read_baseline(options.baseline), how);
   if (!options.junit.empty()) {
     write_text_file(options.junit, to_junit(verdict));
   }
@@ -59,6 +63,25 @@ int gate(const GateOptions& options) {
     std::cout << to_text(verdict);
   }
   return verdict.holds() ? kExitSuccess : kExitGateFailed;
+}
+
+void add_test_options(CLI::App* parser, GateOptions& options) {
+  parser->add_flag("--test-times", options.test_times,
+                   "times fall by the rank test of Mann and Whitney over the repeats, in place of a fixed "
+                   "tolerance; ten repeats on both sides, interleaved, are a good number");
+  parser
+      ->add_option("--level", options.time_test.level,
+                   "with --test-times: the probability of a false alarm, of all jobs together")
+      ->check(CLI::Range(1e-9, 0.5))
+      ->capture_default_str();
+  parser
+      ->add_option("--least-change", options.time_test.least_change_percent,
+                   "with --test-times: by how much a median must be slower to fall, %")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  parser->add_flag("--partial", options.partial,
+                   "the run has only some of the baseline's jobs: the others do not fall, and keep their "
+                   "figures on --update");
 }
 
 }  // namespace
@@ -79,6 +102,7 @@ Command add_gate_command(CLI::App& app) {
       ->check([](const std::string& text) {
         return text.find_first_not_of(" \t") == std::string::npos ? "give a reason" : std::string();
       });
+  add_test_options(parser, *options);
   add_idle_options(parser, options->threads, "comparing needs", options->quiet,
                    "print nothing when the gate holds");
   return {parser, [options] { return gate(*options); }};

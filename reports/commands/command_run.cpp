@@ -77,6 +77,9 @@ Command add_run_command(CLI::App& app) {
                    "solve Poisson's equation on every mesh (cbc3d-solve, a process of its own under the same "
                    "limits) and give the errors; lines that are there already are not solved again");
   add_resume_options(parser, *options);
+  parser->add_flag("--interleave", options->run.interleaved,
+                   "all first repeats before the second ones, so that a machine that gets slower or busier "
+                   "hits all meshers alike");
   parser->add_flag("--strict", options->strict, "exit code 3 when a job is not ok");
   parser->add_flag("!--no-pictures", options->output.pictures, "draw no cut sections and surfaces");
   parser->add_flag("--quiet", options->output.quiet, "no progress and no tables on the screen");

@@ -1,144 +1,17 @@
 #include "reports/gate/gate.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <map>
 
-#include "mesher/core/error.hpp"
-#include "mesher/core/json_text.hpp"
 #include "reports/gate/gate_job.hpp"
-#include "reports/results/format_number.hpp"
-#include "reports/run/provenance.hpp"
+#include "reports/gate/parameter_change.hpp"
 
 namespace cbc3d::reports {
 namespace {
-namespace fs = std::filesystem;
 
 using metrics::metric;
 using metrics::Metric;
 using metrics::MetricId;
-
-constexpr const char* kFormat = "cbc3d-baseline-1";
-constexpr double kUnbounded = 1e9;  ///< severity of what has no tolerance
-
-/// The classes of tolerance of the catalog, each once. What is exact needs none.
-std::vector<const metrics::Tolerance*> tolerance_classes() {
-  std::vector<const metrics::Tolerance*> classes;
-  for (const MetricId id : gated_metrics()) {
-    const metrics::Tolerance* gate = metric(id).gate;
-    if (gate != &metrics::kExact && std::find(classes.begin(), classes.end(), gate) == classes.end()) {
-      classes.push_back(gate);
-    }
-  }
-  return classes;
-}
-
-Json default_tolerances() {
-  Json tolerances;
-  for (const metrics::Tolerance* c : tolerance_classes()) {
-    tolerances[std::string(c->name)] = {{"relative", c->relative}, {"absolute", c->absolute}};
-  }
-  return tolerances;
-}
-
-[[noreturn]] void fail(const fs::path& file, const std::string& key, const std::string& finding) {
-  throw InputError("baseline '" + file.string() + "': \"" + key + "\" " + finding);
-}
-
-void check_tolerances(const Json& tolerances, const fs::path& file) {
-  for (const auto& [name, value] : tolerances.items()) {
-    const std::string key = "tolerances." + name;
-    if (!default_tolerances().contains(name)) {
-      fail(file, key, "is no class of tolerance; there are " + default_tolerances().dump());
-    }
-    for (const char* kind : {"relative", "absolute"}) {
-      const Json number = figure(value, {kind});
-      if (!number.is_number() || number.get<double>() < 0) {
-        fail(file, key + "." + kind, "is " + number.dump() + "; give a number from 0 on");
-      }
-    }
-  }
-}
-
-void check_job(const Json& job, const std::string& key, const fs::path& file) {
-  if (!job.is_object()) {
-    fail(file, key, "is " + job.dump() + "; give an object, or write the baseline anew with --update");
-  }
-  const auto require = [&](const char* name, bool good, const char* remedy) {
-    if (!good) {
-      fail(file, key + "." + name, "is " + figure(job, {name}).dump() + "; give " + remedy);
-    }
-  };
-  require("case", figure(job, {"case"}).is_string(), "the name of a case");
-  require("mesher", figure(job, {"mesher"}).is_string(), "the name of a mesher");
-  require("threads", figure(job, {"threads"}).is_number_integer(), "a thread count");
-  require("parameters", figure(job, {"parameters"}).is_object(), "an object of texts");
-  require("deterministic", figure(job, {"deterministic"}).is_boolean(), "true or false");
-  const Json labels = figure(job, {"missing_labels"});
-  require("missing_labels",
-          labels.is_array() &&
-              std::all_of(labels.begin(), labels.end(), [](const Json& l) { return l.is_number_integer(); }),
-          "a list of labels");
-  require("figures", figure(job, {"figures"}).is_object(), "an object of numbers");
-  for (const auto& [name, value] : job["figures"].items()) {
-    const bool is_known = find_gated_metric(name).has_value();
-    if (!is_known || !value.is_number()) {
-      fail(file, key + ".figures." + name,
-           is_known ? "is " + value.dump() + "; give a number" : "is no figure of the gate; remove it");
-    }
-  }
-}
-
-Json baseline_job(const GateJob& job) {
-  std::map<std::string, double> figures;
-  for (const MetricId id : gated_metrics()) {
-    if (const auto& figure = job.figures[id]) {
-      figures[std::string(metric(id).key)] = *figure;
-    }
-  }
-  Json entry = job.identity;
-  entry["deterministic"] = job.deterministic;
-  entry["missing_labels"] = job.missing_labels;
-  entry["figures"] = figures;
-  return entry;
-}
-
-/// "1.5000 mm": a value of a result line in the unit in which it is shown.
-std::string with_unit(double value, const Metric& metric) {
-  const double shown = metric.scale * value;
-  const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
-  const int decimals = metric.scale != 1 ? 1 : whole ? 0 : 4;
-  return format_number(shown, decimals) + (metric.unit.empty() ? "" : " " + std::string(metric.unit));
-}
-
-/// Compares one figure. `allowed`: the change that is let pass.
-Check check_figure(const std::string& job, const Metric& metric, double was, double is, double allowed) {
-  const double change = is - was;
-  const double worse = metric.worse == metrics::Worse::lower    ? -change
-                       : metric.worse == metrics::Worse::higher ? change
-                                                                : std::abs(change);
-  Check check{job, std::string(metric.key), worse > allowed, -worse > allowed, 0, ""};
-  check.severity = allowed > 0 ? worse / allowed : kUnbounded + worse;
-  const std::string sign = change > 0 ? "+" : "";
-  check.text = std::string(words(metric)) + " was " + with_unit(was, metric) + ", is " +
-               with_unit(is, metric) + " (" + sign + with_unit(change, metric) +
-               (was != 0 ? ", " + sign + format_number(100 * change / std::abs(was), 1) + " %" : "") +
-               "; allowed " + with_unit(allowed, metric) + ")";
-  return check;
-}
-
-Check fallen(const std::string& job, const std::string& figure, const std::string& text) {
-  return {job, figure, true, false, 2 * kUnbounded, text};
-}
-
-double allowed_change(const Metric& metric, double was, bool deterministic, const Json& tolerances) {
-  if (metric.gate == &metrics::kExact || (metric.gate == &metrics::kCounts && deterministic)) {
-    return 0;
-  }
-  const Json& tolerance = tolerances.at(std::string(metric.gate->name));
-  return std::max(tolerance["relative"].get<double>() * std::abs(was), tolerance["absolute"].get<double>());
-}
 
 Check check_labels(const GateJob& job, const Json& entry) {
   std::string lost;
@@ -169,50 +42,160 @@ void note_new_figures(const GateJob& job, const Json& figures, Verdict& verdict)
   }
 }
 
-void compare_figures(const GateJob& job, const Json& figures, const Json& tolerances, Verdict& verdict) {
-  note_new_figures(job, figures, verdict);
-  for (const MetricId id : gated_metrics()) {
+/// Compares the runs' jobs with a baseline's, one by one.
+class Comparer {
+ public:
+  Comparer(const std::vector<GateJob>& jobs, const Json& baseline, const CompareOptions& options)
+      : jobs_(jobs), baseline_(baseline), options_(options) {
+    if (options.time_test) {
+      times_ = time_checks(jobs, baseline, *options.time_test, verdict_.notes);
+      for (const auto& [name, check] : times_) {
+        if (!check.fell && !check.better) {
+          verdict_.notes.push_back(name + ": " + check.text);
+        }
+      }
+    }
+  }
+
+  Verdict verdict() {
+    for (const Json& entry : baseline_["jobs"]) {
+      compare_entry(entry);
+    }
+    for (const GateJob& job : jobs_) {
+      compare_new(job);
+    }
+    apply_known_failures();
+    std::stable_sort(verdict_.checks.begin(), verdict_.checks.end(), [](const Check& a, const Check& b) {
+      return a.fell != b.fell ? a.fell : a.fell && a.severity > b.severity;
+    });
+    return std::move(verdict_);
+  }
+
+ private:
+  void add(Check check) { verdict_.checks.push_back(std::move(check)); }
+
+  void compare_entry(const Json& entry) {
+    const std::string name = name_of_entry(entry);
+    const auto job = std::find_if(jobs_.begin(), jobs_.end(),
+                                  [&](const GateJob& candidate) { return candidate.name == name; });
+    if (job != jobs_.end()) {
+      compare_job(*job, entry);
+    } else if (options_.is_partial) {
+      verdict_.notes.push_back(name + ": not run");
+    } else {
+      add(fallen(name, "status", "is in the baseline and was not run"));
+    }
+  }
+
+  void compare_new(const GateJob& job) {
+    const Json& entries = baseline_["jobs"];
+    if (std::any_of(entries.begin(), entries.end(),
+                    [&](const Json& entry) { return name_of_entry(entry) == job.name; })) {
+      return;
+    }
+    if (is_known_failure(baseline_, job.name, "status")) {
+      add(job.failure.empty() ? Check{job.name, "status", false, false, 0, "ok"}
+                              : fallen(job.name, "status", "is " + job.failure));
+    } else {
+      verdict_.notes.push_back(job.name + ": not in the baseline; --update takes it in");
+    }
+  }
+
+  void compare_job(const GateJob& job, const Json& entry) {
+    if (!job.failure.empty()) {
+      add(fallen(job.name, "status", "was ok, is " + job.failure));
+      return;
+    }
+    add({job.name, "status", false, false, 0, "ok"});
+    if (job.identity["parameters"] != entry["parameters"]) {
+      add(fallen(job.name, "parameters",
+                 changes_of(entry["parameters"], job.identity["parameters"]) +
+                     "; run as the baseline was, or --update. " + cost(job, entry)));
+      return;
+    }
+    note_parameters_in_force(job, entry);
+    compare_repeats(job);
+    add(check_labels(job, entry));
+    note_new_figures(job, entry["figures"], verdict_);
+    for (Check& check : figure_checks(job, entry)) {
+      add(std::move(check));
+    }
+  }
+
+  void compare_repeats(const GateJob& job) {
+    if (job.deterministic) {
+      add(job.first_difference.empty() ? Check{job.name, "repeats", false, false, 0, "repeats are the same"}
+                                       : fallen(job.name, "repeats", job.first_difference));
+    }
+  }
+
+  [[nodiscard]] std::vector<Check> figure_checks(const GateJob& job, const Json& entry) const {
+    std::vector<Check> checks;
+    for (const MetricId id : gated_metrics()) {
+      if (entry["figures"].contains(metric(id).key)) {
+        checks.push_back(check_one(job, id, entry));
+      }
+    }
+    return checks;
+  }
+
+  [[nodiscard]] Check check_one(const GateJob& job, MetricId id, const Json& entry) const {
     const Metric& row = metric(id);
     const std::string key(row.key);
-    if (!figures.contains(key)) {
-      continue;
+    const auto tested = times_.find(job.name);
+    if (row.gate == &metrics::kTime && tested != times_.end()) {
+      return tested->second;
     }
-    const double was = figures[key].get<double>();
+    const double was = entry["figures"][key].get<double>();
     const auto& is = job.figures[id];
-    verdict.checks.push_back(
-        is ? check_figure(job.name, row, was, *is, allowed_change(row, was, job.deterministic, tolerances))
-           : fallen(job.name, key,
-                    std::string(words(row)) + " was " + with_unit(was, row) + ", is not there"));
+    return is ? check_figure(job.name, row, was, *is,
+                             allowed_change(row, was, job.deterministic, baseline_["tolerances"]))
+              : fallen(job.name, key,
+                       std::string(words(row)) + " was " + with_unit(was, row) + ", is not there");
   }
-}
 
-void compare_job(const GateJob& job, const Json& entry, const Json& tolerances, Verdict& verdict) {
-  if (!job.failure.empty()) {
-    verdict.checks.push_back(fallen(job.name, "status", "was ok, is " + job.failure));
-    return;
+  [[nodiscard]] std::string cost(const GateJob& job, const Json& entry) const {
+    return cost_of_change(figure_checks(job, entry));
   }
-  if (job.identity["parameters"] != entry["parameters"]) {
-    verdict.checks.push_back(fallen(job.name, "parameters",
-                                    "were " + entry["parameters"].dump() + ", are " +
-                                        job.identity["parameters"].dump() +
-                                        "; run as the baseline was, or --update"));
-    return;
-  }
-  verdict.checks.push_back({job.name, "status", false, false, 0, "ok"});
-  if (job.deterministic) {
-    verdict.checks.push_back(job.first_difference.empty()
-                                 ? Check{job.name, "repeats", false, false, 0, "repeats are the same"}
-                                 : fallen(job.name, "repeats", job.first_difference));
-  }
-  verdict.checks.push_back(check_labels(job, entry));
-  compare_figures(job, entry["figures"], tolerances, verdict);
-}
 
-/// As GateJob::name.
-std::string name_of(const Json& entry) {
-  return gate_job_name(entry["case"].get<std::string>(), entry["mesher"].get<std::string>(),
-                       entry["threads"].get<int>());
-}
+  /// A mesher's defaults may change without anybody having given a parameter.
+  void note_parameters_in_force(const GateJob& job, const Json& entry) {
+    const Json were = figure(entry, {"parameters_in_force"});
+    if (were.is_object() && !were.empty() && were != job.parameters_in_force) {
+      verdict_.notes.push_back(job.name + ": by the mesher's defaults " +
+                               changes_of(were, job.parameters_in_force) + ". " + cost(job, entry));
+    }
+  }
+
+  void apply_known_failures() {
+    for (const Json& known : known_failures_of(baseline_)) {
+      bool is_found = false;
+      for (Check& check : verdict_.checks) {
+        if (known["job"] == check.job && known["figure"] == check.figure) {
+          is_found = true;
+          mark(check, known["reason"].get<std::string>());
+        }
+      }
+      if (!is_found) {
+        verdict_.notes.push_back(known["job"].get<std::string>() + ": its known failure of " +
+                                 known["figure"].get<std::string>() + " was not compared");
+      }
+    }
+  }
+
+  static void mark(Check& check, const std::string& reason) {
+    check.known = check.fell ? Known::fails : Known::passes;
+    check.text += check.fell ? " (known: " + reason + ")"
+                             : " (it was known to fail: " + reason + "; take it off \"known_failures\")";
+    check.fell = false;
+  }
+
+  const std::vector<GateJob>& jobs_;
+  const Json& baseline_;
+  const CompareOptions& options_;
+  std::map<std::string, Check> times_;  ///< by the test, of the jobs that it can tell of
+  Verdict verdict_;
+};
 
 }  // namespace
 
@@ -221,78 +204,14 @@ std::size_t Verdict::fallen() const {
       std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.fell; }));
 }
 
-Json read_baseline(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) {
-    throw InputError("cannot read the baseline '" + file.string() + "'; write one with --update \"REASON\"");
-  }
-  Json baseline = parse_json<Json>(stream, "baseline '" + file.string() + "'");
-  if (figure(baseline, {"format"}) != kFormat) {
-    fail(file, "format",
-         "is " + figure(baseline, {"format"}).dump() + ", not \"" + kFormat +
-             "\"; write the baseline anew with --update \"REASON\"");
-  }
-  if (!figure(baseline, {"tolerances"}).is_object()) {
-    fail(file, "tolerances", "is missing or no object; " + default_tolerances().dump() + " are usual");
-  }
-  check_tolerances(baseline["tolerances"], file);
-  Json tolerances = default_tolerances();
-  tolerances.update(baseline["tolerances"]);
-  baseline["tolerances"] = std::move(tolerances);
-  if (!figure(baseline, {"jobs"}).is_array() || baseline["jobs"].empty()) {
-    fail(file, "jobs", "is missing, no list or empty; write the baseline anew with --update \"REASON\"");
-  }
-  for (std::size_t n = 0; n < baseline["jobs"].size(); ++n) {
-    check_job(baseline["jobs"][n], "jobs[" + std::to_string(n) + "]", file);
-  }
-  return baseline;
+std::size_t Verdict::count(Known known) const {
+  return static_cast<std::size_t>(
+      std::count_if(checks.begin(), checks.end(), [&](const Check& check) { return check.known == known; }));
 }
 
-Json make_baseline(const std::vector<JobResult>& results, const Json& former, const std::string& reason) {
-  Json baseline;
-  baseline["format"] = kFormat;
-  baseline["history"] = figure(former, {"history"}).is_array() ? former["history"] : Json::array();
-  const Json origin = provenance();
-  baseline["history"].push_back({{"utc", utc_now()},
-                                 {"git_commit", origin["git_commit"]},
-                                 {"git_dirty", origin["git_dirty"]},
-                                 {"reason", reason}});
-  baseline["tolerances"] = former.is_object() ? former["tolerances"] : default_tolerances();
-  baseline["jobs"] = Json::array();
-  for (const GateJob& job : gate_jobs(results)) {
-    if (!job.failure.empty() || !job.first_difference.empty()) {
-      throw InputError(job.name + ": " + (job.failure.empty() ? job.first_difference : job.failure) +
-                       "; a baseline is made of good jobs only");
-    }
-    baseline["jobs"].push_back(baseline_job(job));
-  }
-  return baseline;
-}
-
-Verdict compare(const std::vector<JobResult>& results, const Json& baseline) {
+Verdict compare(const std::vector<JobResult>& results, const Json& baseline, const CompareOptions& options) {
   const std::vector<GateJob> jobs = gate_jobs(results);
-  Verdict verdict;
-  for (const Json& entry : baseline["jobs"]) {
-    const std::string name = name_of(entry);
-    const auto job = std::find_if(jobs.begin(), jobs.end(),
-                                  [&](const GateJob& candidate) { return candidate.name == name; });
-    if (job == jobs.end()) {
-      verdict.checks.push_back(fallen(name, "status", "is in the baseline and was not run"));
-    } else {
-      compare_job(*job, entry, baseline["tolerances"], verdict);
-    }
-  }
-  for (const GateJob& job : jobs) {
-    const Json& entries = baseline["jobs"];
-    if (std::none_of(entries.begin(), entries.end(),
-                     [&](const Json& entry) { return name_of(entry) == job.name; })) {
-      verdict.notes.push_back(job.name + ": not in the baseline; --update takes it in");
-    }
-  }
-  std::stable_sort(verdict.checks.begin(), verdict.checks.end(), [](const Check& a, const Check& b) {
-    return a.fell != b.fell ? a.fell : a.fell && a.severity > b.severity;
-  });
-  return verdict;
+  return Comparer(jobs, baseline, options).verdict();
 }
 
 }  // namespace cbc3d::reports

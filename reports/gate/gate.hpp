@@ -1,55 +1,36 @@
-// The gate: a run compared with a stored baseline.
-//
-// A baseline is a JSON file:
-// {"format": "cbc3d-baseline-1",
-//  "history": [{"utc": "...", "git_commit": "...", "reason": "why the figures changed"}],    newest last
-//  "tolerances": {"distance": {"relative": 0.05, "absolute": 0.01}, ...},    over those of
-//  metrics/catalog.hpp "jobs": [{"case": "...", "mesher": "...", "threads": 1, "parameters": {},
-//  "deterministic": true,
-//            "missing_labels": [], "figures": {"counts.tets": 123, ...}}]}
-// Repeats of a job are one entry: the figures of deterministic meshers must be the same in all of them, time
-// and memory are the smallest, the others the median. "time_ratio" is CPU time over that of the fixed piece
-// of work (reference_work.hpp) done beside it in as many threads, so that a slower or busier machine does not
-// count.
+// The gate: a run compared with a stored baseline (baseline.hpp).
 #pragma once
 
-#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "reports/gate/baseline.hpp"
+#include "reports/gate/check.hpp"
+#include "reports/gate/time_check.hpp"
 #include "reports/results/job_result.hpp"
 
 namespace cbc3d::reports {
 
-/// One comparison.
-struct Check {
-  std::string job;     ///< "liver, cgal, 1 thread"
-  std::string figure;  ///< "counts.tets", "labels", "status", ...
-  bool fell = false;
-  bool better = false;  ///< by more than the tolerance
-  double severity = 0;  ///< change over what is allowed; larger is worse
-  std::string text;     ///< one line: what it was, is, and may be
+struct CompareOptions {
+  std::optional<TimeTest> time_test = {};  ///< none: time has a fixed tolerance
+  bool is_partial = false;                 ///< jobs of the baseline that were not run do not count
 };
 
 struct Verdict {
   std::vector<Check> checks;       ///< those that fell first, the worst at the head
-  std::vector<std::string> notes;  ///< what was not compared
+  std::vector<std::string> notes;  ///< what was not compared, and times that hold by the test
   [[nodiscard]] std::size_t fallen() const;
+  [[nodiscard]] std::size_t count(Known known) const;
   [[nodiscard]] bool holds() const { return fallen() == 0; }
 };
 
-/// Reads and checks a baseline. Throws InputError naming file, key and remedy.
-Json read_baseline(const std::filesystem::path& file);
+Verdict compare(const std::vector<JobResult>& results, const Json& baseline,
+                const CompareOptions& options = {});
 
-/// A baseline of a run's good jobs. `former` (may be null) gives its tolerances and history. Throws
-/// InputError when a job of the run is not ok, or its repeats differ although its mesher is deterministic.
-Json make_baseline(const std::vector<JobResult>& results, const Json& former, const std::string& reason);
-
-Verdict compare(const std::vector<JobResult>& results, const Json& baseline);
-
-/// JUnit's XML, a test case for every check.
+/// JUnit's XML, a test case for every check; known failures are skipped ones.
 std::string to_junit(const Verdict& verdict);
-/// Lines for people: what fell, worst first, then what got better, notes and a count.
+/// Lines for people: what fell, worst first, then known failures, what got better, notes and a count.
 std::string to_text(const Verdict& verdict);
 /// GitHub's step summary.
 std::string to_step_summary(const Verdict& verdict);

@@ -7,6 +7,7 @@
 #include "reports/results/columns.hpp"
 #include "reports/results/format_number.hpp"
 #include "reports/results/joint_figures.hpp"
+#include "reports/results/run_values.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -76,6 +77,8 @@ GateJob joint(const Runs& runs) {
   job.first_difference = job.deterministic && job.failure.empty() ? first_difference(runs) : "";
   job.missing_labels = missing_labels(runs);
   job.figures = figures_of(runs);
+  job.time_ratios = values_of(runs, shown_figure(metrics::metric_id("time_ratio")));
+  job.parameters_in_force = first.reported_parameters;
   return job;
 }
 

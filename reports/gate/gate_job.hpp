@@ -18,6 +18,8 @@ struct GateJob {
   std::string first_difference;  ///< of repeats that should be the same; empty: none
   std::vector<long> missing_labels;
   metrics::Figures figures;
+  std::vector<double> time_ratios;  ///< of every good repeat that has one, in their order
+  Json parameters_in_force;         ///< by what the mesher says, with its defaults; empty: it says nothing
 };
 
 /// Jobs in the order of their first lines.

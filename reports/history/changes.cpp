@@ -6,7 +6,7 @@
 
 #include "mesher/core/error.hpp"
 #include "reports/history/change_points.hpp"
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 
 namespace cbc3d::reports {
 namespace {

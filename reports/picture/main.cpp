@@ -7,6 +7,7 @@
 #include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/input/image_input.hpp"
+#include "mesher/input/input_options.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "reports/picture/scene.hpp"
 
@@ -82,7 +83,7 @@ int main(int argc, char** argv) {
   app.add_option("--size", options.picture.size_px, "width and height, pixels")
       ->check(CLI::Range(100, 8000))
       ->capture_default_str();
-  cbc3d::add_reading_options(app, options.input);
+  cbc3d::add_input_options(app, cbc3d::InputScope::reading, options.input);
   app.add_option("--threads", options.threads, "threads; 0: all cores")->capture_default_str();
   app.add_flag("--quiet", options.quiet, "no progress");
   try {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "reports/results/run_values.hpp"
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 
 namespace cbc3d::reports {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "reports/results/run_values.hpp"
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 
 namespace cbc3d::reports {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 #include "reports/tables/paper_figure.hpp"
 
 namespace cbc3d::reports {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 #include "reports/tables/cells.hpp"
 
 namespace cbc3d::reports {

@@ -159,6 +159,7 @@ class EdgeCollapser {
   [[nodiscard]] double quality_at(std::span<const TetId> star, VertexId w, VertexId gone,
                                   const Placed& to) const {
     double worst = 1;
+    const bool is_graded = options_.graded && !on_facets_;
     for (const TetId t : star) {
       if (mesh_.has_node(t, gone)) {
         continue;
@@ -168,13 +169,14 @@ class EdgeCollapser {
       const Vec3& p = mesh_.point(nodes[face[0]]);
       const Vec3& q = mesh_.point(nodes[face[1]]);
       const Vec3& r = mesh_.point(nodes[face[2]]);
-      worst = std::min(worst, tet_quality(to.at, p, q, r));
-      if (worst <= floor_ || std::max({(p - to.at).squared_norm(), (q - to.at).squared_norm(),
-                                       (r - to.at).squared_norm()}) > longest_squared_) {
+      // Lengths first: they cost less than the quality and refuse as many.
+      if (std::max({(p - to.at).squared_norm(), (q - to.at).squared_norm(), (r - to.at).squared_norm()}) >
+              longest_squared_ ||
+          (is_graded && !grows_slowly(to, {nodes[face[0]], nodes[face[1]], nodes[face[2]]}))) {
         return -1;
       }
-      if (options_.graded && !on_facets_ &&
-          !grows_slowly(to, {nodes[face[0]], nodes[face[1]], nodes[face[2]]})) {
+      worst = std::min(worst, tet_quality(to.at, p, q, r));
+      if (worst <= floor_) {
         return -1;
       }
     }

@@ -36,7 +36,7 @@ class Options(unittest.TestCase):
         self.assertGreater((fine.labels == 8).sum(), 2 * (coarse.labels == 8).sum())
 
     def test_errors_name_keywords(self):
-        for options, text, parameter in (({"lattice_spacing": -1}, "lattice_spacing -1: give a number above 0", None),
+        for options, text, parameter in (({"lattice_spacing": -1}, "lattice_spacing -1: give a number in (0, 1e+09]", None),
                                          ({"lattice_spacing": 1e-9}, "lattice_spacing", "lattice_spacing"),
                                          ({"size": {5: 1}}, "no label 5", None), ({"colour": 1}, "no such option", None),
                                          ({"iterations": 1.5}, "iterations 1.5: give a whole number", None),

@@ -1,7 +1,6 @@
 #include "reports/interfaces/slicer/module_description.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mesher/pipeline/presets.hpp"
 
@@ -83,7 +82,7 @@ std::string description_of(const OptionRow& row) {
 
 /// Slicer's spin boxes need an upper end and a step.
 std::string constraints_of(const OptionRow& row) {
-  const double highest = std::isinf(row.range.highest) ? 1e9 : row.range.highest;
+  const double highest = std::min(row.range.highest, 1e9);  // what an integer of Slicer holds
   const double step = row.kind == OptionKind::count ? 1 : highest <= 1 ? 0.01 : 0.1;
   return "      <constraints>\n        <minimum>" + value_text(row.range.lowest) +
          "</minimum>\n        <maximum>" + value_text(highest) + "</maximum>\n        <step>" +

@@ -1,4 +1,4 @@
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace cbc3d::reports {
 namespace {
 
-TEST(Statistics, AreThoseOfTheTextbook) {
+TEST(Robust, AreThoseOfTheTextbook) {
   EXPECT_EQ(median({3, 1, 2}), 2);
   EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
   EXPECT_NEAR(spread({1, 2, 3, 4, 100}), 1.4826, 1e-9);

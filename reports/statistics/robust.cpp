@@ -1,4 +1,4 @@
-#include "reports/results/statistics.hpp"
+#include "reports/statistics/robust.hpp"
 
 #include <algorithm>
 #include <cmath>
