@@ -70,24 +70,30 @@ class Scale {
   explicit Scale(const Chart& chart) : logarithmic_(chart.logarithmic) {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = 0;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const Series& series : chart.series) {
       for (std::size_t n = 0; n < series.values.size(); ++n) {
         if (std::isfinite(series.values[n])) {
           const double error = n < series.errors.size() ? series.errors[n] : 0;
           highest = std::max(highest, series.values[n] + error);
+          least = std::min(least, series.values[n] - error);
+          most = std::max(most, series.values[n] + error);
           lowest = series.values[n] > 0 ? std::min(lowest, series.values[n]) : lowest;
         }
       }
     }
     logarithmic_ = logarithmic_ && std::isfinite(lowest);
-    ticks_ = logarithmic_ ? powers_of_ten(lowest, highest) : axis_ticks(highest);
+    const bool is_close = !logarithmic_ && !chart.from_zero && least <= most;
+    ticks_ = is_close       ? axis_ticks_between(least, most)
+             : logarithmic_ ? powers_of_ten(lowest, highest)
+                            : axis_ticks(highest);
   }
 
   [[nodiscard]] double y(double value) const {
     const double share = logarithmic_
                              ? (std::log10(std::max(value, ticks_.front())) - std::log10(ticks_.front())) /
                                    (std::log10(ticks_.back()) - std::log10(ticks_.front()))
-                             : value / ticks_.back();
+                             : (value - ticks_.front()) / (ticks_.back() - ticks_.front());
     return kPlotBottom - share * (kPlotBottom - kTop);
   }
   [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
@@ -232,6 +238,21 @@ std::string points(const Chart& chart, const Scale& scale) {
   return svg;
 }
 
+/// Lines across the plot with their texts, by turns at two heights, since they may stand close to each other.
+std::string markers(const Chart& chart) {
+  constexpr const char *kBad = "#a3240c", *kGood = "#00664b";
+  std::string svg;
+  for (std::size_t n = 0; n < chart.markers.size(); ++n) {
+    const ChartMarker& marker = chart.markers[n];
+    const double x = kLeft + slot_width(chart) * static_cast<double>(marker.category);
+    const char* colour = marker.is_bad ? kBad : kGood;
+    svg += "<g fill=\"" + std::string(colour) + "\"><title>" + markup_text(marker.tip) + "</title>\n";
+    svg += line(x, kTop, x, kPlotBottom, colour, 1.5, true);
+    svg += text(x + 4, kTop + 11 + 14 * static_cast<double>(n % 2), marker.text, "start", 12) + "</g>\n";
+  }
+  return svg;
+}
+
 /// `inner`: axes and marks; `below`: the legend.
 std::string document(const std::string& title, double height, const std::string& inner,
                      const std::string& below) {
@@ -246,7 +267,7 @@ std::string document(const Chart& chart, const Scale& scale, const std::string& 
   const std::string below = legend(chart, height, [&](std::size_t s, double x, double y) {
     return line(x, y, x + 18, y, kColours[s % kColours.size()], 5, chart.series[s].dashed);
   });
-  return document(chart.title, height, axes(chart, scale) + marks, below);
+  return document(chart.title, height, axes(chart, scale) + marks + markers(chart), below);
 }
 
 /// One axis of a plane: from values to the share of its length.
@@ -388,6 +409,18 @@ std::vector<double> axis_ticks(double highest) {
   std::vector<double> ticks{0};
   while (ticks.back() < highest * (1 - 1e-9)) {
     ticks.push_back(step * static_cast<double>(ticks.size()));
+  }
+  return ticks;
+}
+
+std::vector<double> axis_ticks_between(double lowest, double highest) {
+  constexpr double kMargin = 0.05;  // of the range, or of the value where there is no range
+  const double range = highest > lowest ? highest - lowest : lowest != 0 ? std::abs(lowest) : 1;
+  const double step = axis_ticks(range * (1 + 2 * kMargin))[1];
+  double tick = std::floor((lowest - kMargin * range) / step);
+  std::vector<double> ticks{tick * step};
+  while (ticks.back() < highest + kMargin * range * (1 - 1e-9)) {
+    ticks.push_back(++tick * step);
   }
   return ticks;
 }

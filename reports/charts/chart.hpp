@@ -16,6 +16,14 @@ struct Series {
   bool dashed = false;         ///< a line for comparison, without marks
 };
 
+/// A line across the plot, in front of the category with that number.
+struct ChartMarker {
+  std::size_t category = 0;
+  std::string text;  ///< at its top
+  std::string tip;   ///< shown while the mouse rests on it
+  bool is_bad = false;
+};
+
 struct Chart {
   std::string title;
   std::string x_title, y_title;
@@ -24,6 +32,8 @@ struct Chart {
   bool logarithmic = false;  ///< y axis in powers of ten; values must be > 0
   int label_every = 1;       ///< write the name of every Nth category
   std::string note;          ///< small, beneath
+  bool from_zero = true;     ///< of a linear y axis; false: from near the lowest value
+  std::vector<ChartMarker> markers = {};
 };
 
 /// A stand-alone SVG document whose size follows its width, so that it can be put into a page as it is.
@@ -52,5 +62,7 @@ std::string scatter_chart(const Scatter& scatter);
 
 /// Ticks that a person would choose, from 0 or below to at least `highest`.
 std::vector<double> axis_ticks(double highest);
+/// The same from at most `lowest` to at least `highest`, whatever their signs.
+std::vector<double> axis_ticks_between(double lowest, double highest);
 
 }  // namespace cbc3d::reports

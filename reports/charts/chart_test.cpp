@@ -14,6 +14,32 @@ TEST(Chart, TicksAreThoseAPersonWouldChoose) {
   EXPECT_GE(axis_ticks(123).back(), 123);
 }
 
+TEST(Chart, TicksBetweenHoldBothEnds) {
+  EXPECT_EQ(axis_ticks_between(101, 109), (std::vector<double>{100, 102, 104, 106, 108, 110}));
+  for (const auto& [lowest, highest] : {std::pair{-3.0, -1.0}, {5.0, 5.0}, {0.0, 0.0}, {-1e-3, 1e6}}) {
+    const std::vector<double> ticks = axis_ticks_between(lowest, highest);
+    EXPECT_LE(ticks.front(), lowest);
+    EXPECT_GE(ticks.back(), highest);
+    EXPECT_GE(ticks.size(), 2U);
+    EXPECT_LE(ticks.size(), 8U);
+  }
+}
+
+TEST(Chart, MarkersStandAcrossThePlotAndAreEscaped) {
+  Chart chart;
+  chart.categories = {"a", "b", "c", "d"};
+  chart.series = {{"one", {100, 101, 108, 109}, {}, false}};
+  chart.from_zero = false;
+  chart.markers = {{2, "+8 <%>", "tip & more", true}};
+  const std::string svg = line_chart(chart);
+  EXPECT_NE(svg.find("+8 &lt;%&gt;"), std::string::npos);
+  EXPECT_NE(svg.find("<title>tip &amp; more</title>"), std::string::npos);
+  EXPECT_NE(svg.find("x1=\"357.00\""), std::string::npos) << "in the middle of the plot, 70 to 644";
+  EXPECT_EQ(svg.find(">0</text>"), std::string::npos) << "the axis is near the values";
+  chart.from_zero = true;
+  EXPECT_NE(line_chart(chart).find(">0</text>"), std::string::npos);
+}
+
 TEST(Chart, TextIsEscapedAndGapsAreLeftOut) {
   Chart chart;
   chart.title = "a < b & \"c\"";

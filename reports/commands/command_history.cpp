@@ -1,9 +1,11 @@
 // cbc3d-bench history: figures from commit to commit.
 #include <iostream>
 
+#include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
 #include "reports/commands/commands.hpp"
+#include "reports/history/history_page.hpp"
 #include "reports/history/history_tables.hpp"
 
 namespace cbc3d::reports {
@@ -20,6 +22,7 @@ struct HistoryOptions {
   std::vector<std::string> metrics;
   std::size_t last = 20;
   std::string since;
+  std::string page, title = "CBC3D: figures by commit";
   ChangeOptions changes;
   int threads = 0;
   bool quiet = false;
@@ -61,6 +64,18 @@ int show(const HistoryOptions& options) {
     std::cout << to_markdown(job_table(looked.history, job, ids, looked.changes, options.last)) << '\n';
   }
   std::cout << to_markdown(change_table(looked.history, looked.changes, "changes", "Changes")) << '\n';
+  return kExitSuccess;
+}
+
+int write_page(const HistoryOptions& options) {
+  require_writable(options.page);
+  const Looked looked = look(options);
+  const auto ids = looked.options.metrics.empty() ? default_metrics() : looked.options.metrics;
+  write_text_file(options.page, history_page(options.title, looked.history, looked.changes, ids));
+  if (!options.quiet) {
+    std::cout << options.page << ": " << looked.history.jobs.size() << " jobs, " << looked.changes.size()
+              << " changes\n";
+  }
   return kExitSuccess;
 }
 
@@ -151,6 +166,16 @@ Command add_show(CLI::App* parent, const std::shared_ptr<HistoryOptions>& option
   return {parser, [options] { return show(*options); }};
 }
 
+Command add_page(CLI::App* parent, const std::shared_ptr<HistoryOptions>& options) {
+  CLI::App* parser = parent->add_subcommand(
+      "page", "Writes one HTML file: plots of every job by commit, with its changes marked");
+  add_look_options(parser, *options);
+  parser->add_option("-o,--out", options->page, "HTML file to write")->required();
+  parser->add_option("--title", options->title, "title of the page")->capture_default_str();
+  parser->add_flag("--quiet", options->quiet, "no summary on the screen");
+  return {parser, [options] { return write_page(*options); }};
+}
+
 Command add_regressions(CLI::App* parent, const std::shared_ptr<HistoryOptions>& options) {
   CLI::App* parser = parent->add_subcommand(
       "regressions", "Lists the change points that are for the worse; exit code 1 when some are new");
@@ -171,7 +196,7 @@ Command add_history_command(CLI::App& app) {
   parser->require_subcommand(1);
   const auto options = std::make_shared<HistoryOptions>();
   const std::vector<Command> commands{add_add(parser, options), add_show(parser, options),
-                                      add_regressions(parser, options)};
+                                      add_page(parser, options), add_regressions(parser, options)};
   return {parser, [commands] {
             for (const Command& command : commands) {
               if (command.parser->parsed()) {

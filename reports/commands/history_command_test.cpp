@@ -54,6 +54,8 @@ TEST_F(HistoryCommand, APlantedRegressionEndsWithOneAndIsNamed) {
   EXPECT_TRUE(printed("regressions: 1, new since commit c010: 1")) << text_;
   EXPECT_EQ(history({"regressions"}), 0) << "it was known before the last commit";
   EXPECT_TRUE(printed("regressions: 1, new since commit c038: 0")) << text_;
+  ASSERT_EQ(history({"page", "--out", folder_.path() / "page.html"}), 0) << text_;
+  EXPECT_NE(folder_.content("page.html").find("</html>"), std::string::npos);
   EXPECT_EQ(history({"regressions", "--since", "nonsense"}), 2);
   EXPECT_EQ(history({"regressions", "--metric", "nonsense"}), 2);
 }

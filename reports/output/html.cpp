@@ -1,7 +1,6 @@
 #include "reports/output/html.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -72,35 +71,6 @@ bool holds_texts(const Table& table) {
   });
 }
 
-std::string table_html(const Table& table) {
-  const Footnotes footnotes(table);
-  const auto rows =
-      texts_of(table, footnotes, [](std::size_t number) { return " [" + std::to_string(number) + "]"; });
-  std::string html = element("h3", markup_text(table.title), "id=\"table-" + markup_text(table.name) + "\"");
-  html += holds_texts(table) ? "<div class=\"scroll\"><table class=\"left\">\n"
-                             : "<div class=\"scroll\"><table>\n";
-  for (std::size_t line = 0; line < rows.size(); ++line) {
-    html += line == 0 ? "<thead><tr>" : "<tr>";
-    for (std::size_t column = 0; column < rows[line].size(); ++column) {
-      const std::string text = markup_text(rows[line][column]);
-      const bool failed = line > 0 && (rows[line][column].rfind("- [", 0) == 0 ||
-                                       (column >= 2 && table.rows[line - 1].cells[column - 2].missed));
-      html +=
-          line == 0 ? "<th>" + text + "</th>" : (failed ? "<td class=\"failed\">" : "<td>") + text + "</td>";
-    }
-    html += line == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
-  }
-  html += "</tbody></table></div>\n";
-  if (!footnotes.notes().empty()) {
-    std::string notes;
-    for (const std::string& note : footnotes.notes()) {
-      notes += element("li", markup_text(note));
-    }
-    html += element("ol", notes, "class=\"notes\"");
-  }
-  return html;
-}
-
 std::string summary(const Report& report) {
   std::map<std::string, int> counts;
   for (const JobResult& result : report.results) {
@@ -160,14 +130,6 @@ std::string pictures(const Report& report) {
     html += rows.empty() ? "" : element("h3", markup_text(case_name)) + rows;
   }
   return html;
-}
-
-std::string plots(const Report& report) {
-  std::string html;
-  for (const Figure& figure : report.figures) {
-    html += element("figure", figure.svg, "id=\"figure-" + markup_text(figure.name) + "\"");
-  }
-  return html.empty() ? "" : element("div", html, "class=\"plots\"");
 }
 
 std::string failures(const Report& report) {
@@ -261,31 +223,71 @@ std::string provenance_html(const Report& report) {
 
 }  // namespace
 
+std::string table_html(const Table& table) {
+  const Footnotes footnotes(table);
+  const auto rows =
+      texts_of(table, footnotes, [](std::size_t number) { return " [" + std::to_string(number) + "]"; });
+  std::string html = element("h3", markup_text(table.title), "id=\"table-" + markup_text(table.name) + "\"");
+  html += holds_texts(table) ? "<div class=\"scroll\"><table class=\"left\">\n"
+                             : "<div class=\"scroll\"><table>\n";
+  for (std::size_t line = 0; line < rows.size(); ++line) {
+    html += line == 0 ? "<thead><tr>" : "<tr>";
+    for (std::size_t column = 0; column < rows[line].size(); ++column) {
+      const std::string text = markup_text(rows[line][column]);
+      const bool failed = line > 0 && (rows[line][column].rfind("- [", 0) == 0 ||
+                                       (column >= 2 && table.rows[line - 1].cells[column - 2].missed));
+      html +=
+          line == 0 ? "<th>" + text + "</th>" : (failed ? "<td class=\"failed\">" : "<td>") + text + "</td>";
+    }
+    html += line == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
+  }
+  html += "</tbody></table></div>\n";
+  if (!footnotes.notes().empty()) {
+    std::string notes;
+    for (const std::string& note : footnotes.notes()) {
+      notes += element("li", markup_text(note));
+    }
+    html += element("ol", notes, "class=\"notes\"");
+  }
+  return html;
+}
+
+std::string plots_html(const std::vector<Figure>& figures) {
+  std::string html;
+  for (const Figure& figure : figures) {
+    html += element("figure", figure.svg, "id=\"figure-" + markup_text(figure.name) + "\"");
+  }
+  return html.empty() ? "" : element("div", html, "class=\"plots\"");
+}
+
+std::string html_page(const std::string& title, const std::string& lead,
+                      const std::vector<PageSection>& sections) {
+  std::string links, content;
+  for (const PageSection& section : sections) {
+    if (!section.html.empty()) {
+      const std::string id = markup_text(section.id), name = markup_text(section.name);
+      links += "<a href=\"#" + id + "\">" + name + "</a>";
+      content += element("section", element("h2", name) + section.html, "id=\"" + id + "\"");
+    }
+  }
+  const std::string text = markup_text(title);
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         text + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n" + element("h1", text) + lead +
+         element("nav", links) + content + "</body></html>\n";
+}
+
 std::string to_html(const Report& report) {
-  const std::string title = markup_text(report.title);
   std::string tables;
   for (const Table& table : report.tables) {
     tables += table_html(table);
   }
-  std::string body = element("h1", title) + summary(report);
-  std::string links;
-  const std::vector<std::array<std::string, 3>> sections{
-      {"tables", "Tables", tables},
-      {"plots", "Plots", plots(report)},
-      {"pictures", "Pictures", pictures(report)},
-      {"failed", "Jobs that are not ok", failures(report)},
-      {"provenance", "Provenance", provenance_html(report)}};
-  std::string content;
-  for (const auto& [id, name, html] : sections) {
-    if (!html.empty()) {
-      links += "<a href=\"#" + id + "\">" + name + "</a>";
-      content += element("section", element("h2", name) + html, "id=\"" + id + "\"");
-    }
-  }
-  body += element("nav", links) + content;
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         title + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n" + body + "</body></html>\n";
+  return html_page(report.title, summary(report),
+                   {{"tables", "Tables", tables},
+                    {"plots", "Plots", plots_html(report.figures)},
+                    {"pictures", "Pictures", pictures(report)},
+                    {"failed", "Jobs that are not ok", failures(report)},
+                    {"provenance", "Provenance", provenance_html(report)}});
 }
 
 }  // namespace cbc3d::reports

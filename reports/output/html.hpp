@@ -24,4 +24,18 @@ struct Report {
 /// the figures come from. Readable on a phone (tables scroll on their own, pictures stack) and in print.
 std::string to_html(const Report& report);
 
+/// A part of a page, with a heading and a link to it; without HTML it is left out.
+struct PageSection {
+  std::string id, name;
+  std::string html;
+};
+
+/// A page of this kind with other content; `title`, `id` and `name` are escaped, HTML is put in as it is.
+std::string html_page(const std::string& title, const std::string& lead,
+                      const std::vector<PageSection>& sections);
+/// A table with its heading and its reasons beneath.
+std::string table_html(const Table& table);
+/// Figures side by side.
+std::string plots_html(const std::vector<Figure>& figures);
+
 }  // namespace cbc3d::reports
