@@ -1,6 +1,7 @@
 // cbc3d-bench history: figures from commit to commit.
 #include <iostream>
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
@@ -130,12 +131,14 @@ void add_look_options(CLI::App* parser, HistoryOptions& options) {
   parser
       ->add_option("--level", options.changes.level,
                    "probability of an alarm in a store in which nothing changes, for all series together")
-      ->check(CLI::Range(1e-6, 0.5))
+      ->check(number_between(1e-6, 0.5))
       ->capture_default_str();
   parser->add_option("--at-least", options.changes.least_percent, "leave out smaller changes, %")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0, 1e6))
       ->capture_default_str();
-  parser->add_option("--seed", options.changes.seed, "of the permutation test")->capture_default_str();
+  parser->add_option("--seed", options.changes.seed, "of the permutation test")
+      ->check(seed_value())
+      ->capture_default_str();
   add_threads_option(parser, options.threads);
 }
 
@@ -160,7 +163,7 @@ Command add_show(CLI::App* parent, const std::shared_ptr<HistoryOptions>& option
       parent->add_subcommand("show", "Prints the figures of every job by commit, and what changed");
   add_look_options(parser, *options);
   parser->add_option("--last", options->last, "commits of each job that are shown, the newest")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number_between(1, 1000000))
       ->capture_default_str();
   parser->add_flag("--quiet", options->quiet, "no progress (showing has none)");
   return {parser, [options] { return show(*options); }};

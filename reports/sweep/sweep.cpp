@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reports/results/run_values.hpp"
+#include "reports/statistics/bootstrap.hpp"
 #include "reports/statistics/robust.hpp"
 
 namespace cbc3d::reports {
@@ -77,11 +78,13 @@ void compare(SweepPoint& point, const std::vector<SweepPoint>& points) {
 }
 
 Json to_json(const Samples& samples) {
+  const auto interval = median_interval(samples.seconds);
   return {{"samples", samples.seconds},
           {"outlier", samples.outlier},
           {"median", samples.median_s},
           {"spread", samples.spread_s},
-          {"standard_error", samples.error_s}};
+          {"standard_error", samples.error_s},
+          {"median_interval", interval ? Json({interval->low, interval->high}) : Json()}};
 }
 
 }  // namespace

@@ -35,6 +35,16 @@ TEST(Sweep, AllSamplesAreKeptAndOutliersFlagged) {
   EXPECT_EQ(json[0]["seconds"]["samples"], Json({4.0, 4.1, 3.9, 4.0, 9.0}));
   EXPECT_EQ(json[0]["seconds"]["outlier"][4], true);
   EXPECT_TRUE(json[0]["speed_up"].is_null());
+  EXPECT_TRUE(json[0]["seconds"]["median_interval"].is_null());  // of five samples there is none
+}
+
+TEST(Sweep, SixSamplesHaveAnInterval) {
+  std::vector<Json> lines;
+  for (int repeat = 0; repeat < 6; ++repeat) lines.push_back(sweep_line(1, repeat, 4 + 0.1 * repeat));
+  const Json interval = to_json(sweep_points(decode_lines(lines)))[0]["seconds"]["median_interval"];
+  EXPECT_GE(interval[0], 4.0);
+  EXPECT_LE(interval[1], 4.5);
+  EXPECT_LT(interval[0], interval[1]);
 }
 
 TEST(Sweep, AFailedSampleIsSaid) {

@@ -117,7 +117,7 @@ class SweepRows {
 
 double serial_share(double speed_up, int threads) {
   const double shared = 1.0 / threads;
-  return std::max(0.0, (1 / speed_up - shared) / (1 - shared));
+  return std::clamp((1 / speed_up - shared) / (1 - shared), 0.0, 1.0);
 }
 
 Table parallel_table(const std::vector<SweepPoint>& points) {

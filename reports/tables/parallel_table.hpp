@@ -8,7 +8,7 @@ namespace cbc3d::reports {
 
 /// The serial share s of a work that `threads` threads do `speed_up` times as fast as one: by Amdahl's law
 /// speed_up = 1 / (s + (1 - s) / threads). 0 where it is more than as many times as fast as there are
-/// threads.
+/// threads, 1 where it is slower than one.
 double serial_share(double speed_up, int threads);
 
 /// Table `sweep_parallel`, of cases and meshers with samples of one thread and of more: a row for the whole

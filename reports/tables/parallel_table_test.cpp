@@ -27,6 +27,7 @@ TEST(ParallelTable, SerialSharesAreAmdahls) {
   EXPECT_DOUBLE_EQ(serial_share(1, 2), 1);
   EXPECT_NEAR(serial_share(1 / (0.25 + 0.75 / 4), 4), 0.25, 1e-12);
   EXPECT_DOUBLE_EQ(serial_share(2.2, 2), 0);  // more than two threads can do: noise, or twice the cache
+  EXPECT_DOUBLE_EQ(serial_share(0.8, 2), 1);  // slower with two: no share of it is more than all
 }
 
 TEST(ParallelTable, StagesAndTheWholeJobAreComparedWithOneThread) {

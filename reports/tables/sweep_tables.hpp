@@ -5,8 +5,8 @@
 
 namespace cbc3d::reports {
 
-/// Table `sweep`: for every case, mesher and thread count median, spread and range of the time, speed-up and
-/// efficiency with their errors, and outliers.
+/// Table `sweep`: for every case, mesher and thread count median with its interval and range of the time,
+/// speed-up with its interval and whether the rank test tells it from 1, efficiency, and outliers.
 Table sweep_table(const TableInput& input);
 
 /// Table `sweep_stages`: the same of every stage, with its share of the job.
