@@ -42,6 +42,7 @@ Command add_phantom_command(CLI::App& app);
 Command add_merge_command(CLI::App& app);
 Command add_gate_command(CLI::App& app);
 Command add_history_command(CLI::App& app);
+Command add_cluster_command(CLI::App& app);
 Command add_report_command(CLI::App& app);
 Command add_sweep_command(CLI::App& app);
 

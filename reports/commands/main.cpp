@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
       reports::add_list_command(app),   reports::add_run_command(app),   reports::add_evaluate_command(app),
       reports::add_tables_command(app), reports::add_merge_command(app), reports::add_gate_command(app),
       reports::add_report_command(app), reports::add_sweep_command(app), reports::add_phantom_command(app),
-      reports::add_history_command(app)};
+      reports::add_history_command(app), reports::add_cluster_command(app)};
   try {
     app.parse(argc, argv);
     for (const reports::Command& command : commands) {

@@ -53,15 +53,17 @@ std::vector<Json> lines_of(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<Json> merge_runs(const std::vector<fs::path>& folders, const fs::path& out_dir) {
+std::vector<Json> merge_runs(const std::vector<fs::path>& folders, const fs::path& out_dir,
+                             const MergeOptions& options) {
   std::error_code error;
   fs::create_directories(out_dir, error);
   if (error) {
     throw InputError("--out '" + out_dir.string() + "': cannot create it: " + error.message());
   }
   const FolderLock lock(out_dir);
-  if (!read_results(out_dir / "results.jsonl").empty()) {
-    throw InputError("--out '" + out_dir.string() + "' holds results already; give another folder");
+  if (!options.replace && !read_results(out_dir / "results.jsonl").empty()) {
+    throw InputError("--out '" + out_dir.string() +
+                     "' holds results already; give another folder, or --replace");
   }
   std::vector<Json> joint;
   std::map<std::string, std::pair<Json, fs::path>> seen;
@@ -78,6 +80,10 @@ std::vector<Json> merge_runs(const std::vector<fs::path>& folders, const fs::pat
         joint.push_back(std::move(line));
       }
     }
+  }
+  if (options.expected > 0 && joint.size() != options.expected) {
+    throw JobError(std::to_string(options.expected) + " jobs were expected, and the folders hold " +
+                   std::to_string(joint.size()) + "; nothing was merged");
   }
   replace_results(out_dir / "results.jsonl", joint);
   return joint;
