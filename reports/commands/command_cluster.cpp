@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/error.hpp"
 #include "reports/cluster/cluster_scripts.hpp"
 #include "reports/commands/commands.hpp"
@@ -108,7 +109,7 @@ void add_engine(CLI::App* parent, const char* name, const char* text,
       ->required();
   parser->add_option("--budgets", options->run.budgets, "numbers of elements, as those of `run`")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number_between(1, 1000000000));
   add_limit_options(parser, options->run, options->memory_limit_gib);
   parser->add_flag("--solve", options->run.solve, "solve Poisson's equation on every mesh");
   parser->add_flag("--quiet", options->quiet, "no summary on the screen");

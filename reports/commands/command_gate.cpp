@@ -88,6 +88,13 @@ void add_test_options(CLI::App* parser, GateOptions& options) {
                    "times fall by the rank test of Mann and Whitney over the repeats, in place of a fixed "
                    "tolerance; ten repeats on both sides, interleaved, are a good number");
   parser
+      ->add_option(
+          "--time-figure", options.time_test.figure,
+          "with --test-times: time_ratio, CPU time over the reference work's, or time_s.cpu, CPU time "
+          "alone, for runs of one machine whose reference work is disturbed")
+      ->check(CLI::IsMember({"time_ratio", "time_s.cpu"}))
+      ->capture_default_str();
+  parser
       ->add_option("--level", options.time_test.level,
                    "with --test-times: the probability of a false alarm, of all jobs together")
       ->check(number_between(1e-9, 0.5))

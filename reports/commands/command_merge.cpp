@@ -1,6 +1,7 @@
 // cbc3d-bench merge: the folders of several runs made one.
 #include <iostream>
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/error.hpp"
 #include "reports/commands/commands.hpp"
 #include "reports/results/job_result.hpp"
@@ -39,7 +40,7 @@ Command add_merge_command(CLI::App& app) {
   parser
       ->add_option("--expect", options->merge.expected,
                    "jobs that there should be: with others nothing is merged, exit code 3")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number_between(1, 1000000));
   parser->add_flag("--replace", options->merge.replace, "replace the results that --out holds already");
   add_idle_options(parser, options->threads, "merging needs", options->quiet, "no summary on the screen");
   return {parser, [options] { return merge(*options); }};

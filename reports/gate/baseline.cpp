@@ -64,9 +64,11 @@ bool is_numbers(const Json& list) {
 
 /// What a baseline older than them does not have.
 void check_newer_keys(const Json& job, const std::string& key, const fs::path& file) {
-  const Json samples = figure(job, {"samples", "time_ratio"});
-  if (!samples.is_null() && !is_numbers(samples)) {
-    fail(file, key + ".samples.time_ratio", "is " + samples.dump() + "; give a list of numbers");
+  for (const char* name : {"time_ratio", "time_s.cpu"}) {
+    const Json samples = figure(job, {"samples", name});
+    if (!samples.is_null() && !is_numbers(samples)) {
+      fail(file, key + ".samples." + name, "is " + samples.dump() + "; give a list of numbers");
+    }
   }
   const Json in_force = figure(job, {"parameters_in_force"});
   if (!in_force.is_null() && !in_force.is_object()) {
@@ -133,7 +135,7 @@ Json baseline_job(const GateJob& job) {
   entry["deterministic"] = job.deterministic;
   entry["missing_labels"] = job.missing_labels;
   entry["figures"] = figures;
-  entry["samples"] = {{"time_ratio", job.time_ratios}};
+  entry["samples"] = job.time_samples;
   return entry;
 }
 

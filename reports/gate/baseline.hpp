@@ -8,7 +8,7 @@
 //  "reason": "..."}], "jobs": [{"case": "...", "mesher": "...", "threads": 1, "parameters": {},
 //  "parameters_in_force": {},
 //            "deterministic": true, "missing_labels": [], "figures": {"counts.tets": 123, ...},
-//            "samples": {"time_ratio": [...]}}]}
+//            "samples": {"time_ratio": [...], "time_s.cpu": [...]}}]}
 // Repeats of a job are one entry: the figures of deterministic meshers must be the same in all of them, time
 // and memory are the smallest, the others the median; `samples` has what tests need of every repeat.
 // "time_ratio" is CPU time over that of the fixed piece of work (reference_work.hpp) done beside it in as

@@ -47,6 +47,7 @@ std::vector<Json> joined(std::vector<Json> a, const std::vector<Json>& b) {
 TEST(Baseline, HasASampleOfTimeForEveryRepeat) {
   const Json entry = baseline()["jobs"][0];
   EXPECT_EQ(entry["samples"]["time_ratio"], Json({50.0, 50.0}));
+  EXPECT_EQ(entry["samples"]["time_s.cpu"], Json({1.0, 1.0}));
   EXPECT_EQ(name_of_entry(entry), kJob);
 }
 

@@ -77,7 +77,8 @@ GateJob joint(const Runs& runs) {
   job.first_difference = job.deterministic && job.failure.empty() ? first_difference(runs) : "";
   job.missing_labels = missing_labels(runs);
   job.figures = figures_of(runs);
-  job.time_ratios = values_of(runs, shown_figure(metrics::metric_id("time_ratio")));
+  job.time_samples = {{"time_ratio", values_of(runs, shown_figure(metrics::metric_id("time_ratio")))},
+                      {"time_s.cpu", values_of(runs, shown_figure(metrics::metric_id("time_s.cpu")))}};
   job.parameters_in_force = first.reported_parameters;
   return job;
 }

@@ -1,6 +1,7 @@
 // The figures of a job that the gate compares, from its repeats.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ struct GateJob {
   std::string first_difference;  ///< of repeats that should be the same; empty: none
   std::vector<long> missing_labels;
   metrics::Figures figures;
-  std::vector<double> time_ratios;  ///< of every good repeat that has one, in their order
-  Json parameters_in_force;         ///< by what the mesher says, with its defaults; empty: it says nothing
+  /// Of every good repeat that has one, in their order: "time_ratio" and "time_s.cpu".
+  std::map<std::string, std::vector<double>> time_samples;
+  Json parameters_in_force;  ///< by what the mesher says, with its defaults; empty: it says nothing
 };
 
 /// Jobs in the order of their first lines.

@@ -56,6 +56,17 @@ TEST(TimeCheck, FasterIsBetterAndWhatIsBelowTheLeastChangeIsNeither) {
                    .holds());
 }
 
+TEST(TimeCheck, CpuTimeAloneLeavesOutADisturbedReference) {
+  std::vector<Json> run = timed_run(10, 1.08, 2);
+  for (Json& line : run)
+    line["time_s"]["reference_cpu"] = 0.03;  // the reference work took half as long again
+  const Json former = baseline_of(timed_run(10, 1, 1));
+  EXPECT_TRUE(compare_lines(run, former, kTested).holds());
+  const Verdict verdict = compare_lines(run, former, {.time_test = TimeTest{.figure = "time_s.cpu"}});
+  EXPECT_EQ(verdict.fallen(), 1U);
+  EXPECT_EQ(time_text(verdict).substr(0, 21), "CPU time: median was ") << time_text(verdict);
+}
+
 TEST(TimeCheck, UnchangedRunsRaiseNoAlarm) {
   int alarms = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {
