@@ -37,9 +37,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   add_program_help(app, program_help());
   const std::vector<reports::Command> commands{
-      reports::add_list_command(app),   reports::add_run_command(app),   reports::add_evaluate_command(app),
-      reports::add_tables_command(app), reports::add_merge_command(app), reports::add_gate_command(app),
-      reports::add_report_command(app), reports::add_sweep_command(app), reports::add_phantom_command(app),
+      reports::add_list_command(app),    reports::add_run_command(app),    reports::add_evaluate_command(app),
+      reports::add_tables_command(app),  reports::add_merge_command(app),  reports::add_gate_command(app),
+      reports::add_report_command(app),  reports::add_sweep_command(app),  reports::add_phantom_command(app),
       reports::add_history_command(app), reports::add_cluster_command(app)};
   try {
     app.parse(argc, argv);

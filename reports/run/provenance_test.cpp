@@ -13,8 +13,8 @@ namespace {
 TEST(Provenance, HasEveryKeyOfALine) {
   const Json origin = provenance();
   for (const char* key :
-       {"cbc3d_version", "git_commit", "git_commit_date", "git_dirty", "compiler", "compiler_flags", "build_type", "libraries",
-        "cpu", "cores", "memory_bytes", "system", "load_1min", "utc"}) {
+       {"cbc3d_version", "git_commit", "git_commit_date", "git_dirty", "compiler", "compiler_flags",
+        "build_type", "libraries", "cpu", "cores", "memory_bytes", "system", "load_1min", "utc"}) {
     EXPECT_TRUE(origin.contains(key) && !origin[key].is_null()) << key;
   }
   EXPECT_TRUE(std::regex_match(origin["cbc3d_version"].get<std::string>(), std::regex(R"(\d+\.\d+\.\d+)")));
