@@ -149,7 +149,7 @@ Json entry_of(const Json& baseline, const std::string& job) {
 
 /// The new entry of a job, in which known failures keep what they were; null: the job has none.
 Json next_entry(const GateJob& job, const Json& former) {
-  const Json before = entry_of(former, job.name);
+  Json before = entry_of(former, job.name);
   const bool is_bad = !job.failure.empty() || !job.first_difference.empty();
   if (is_bad && is_known_failure(former, job.name, job.failure.empty() ? "repeats" : "status")) {
     return before;

@@ -90,6 +90,7 @@ std::map<std::string, Check> time_checks(const std::vector<GateJob>& jobs, const
                                          const TimeTest& test, std::vector<std::string>& notes) {
   const std::vector<Tested> list = tested_jobs(jobs, baseline, test.figure, notes);
   std::vector<SamplePair> pairs;
+  pairs.reserve(list.size());
   for (const Tested& tested : list) {
     pairs.push_back(tested.samples);
   }

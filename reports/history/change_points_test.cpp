@@ -15,6 +15,7 @@ using test::noisy_times;
 
 std::vector<std::size_t> places(const std::vector<ChangePoint>& points) {
   std::vector<std::size_t> found;
+  found.reserve(points.size());
   for (const ChangePoint& point : points) {
     found.push_back(point.first_changed);
   }

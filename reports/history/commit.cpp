@@ -37,7 +37,7 @@ std::optional<Commit> git_commit(const std::filesystem::path& folder, const std:
   if (blank == std::string::npos) {
     return std::nullopt;
   }
-  return Commit{line.substr(0, blank), utc_text(std::atoll(line.c_str() + blank + 1))};
+  return Commit{line.substr(0, blank), utc_text(std::strtoll(line.c_str() + blank + 1, nullptr, 10))};
 }
 
 bool is_changed(const std::filesystem::path& folder) {

@@ -1,14 +1,15 @@
 #include "reports/history/date.hpp"
 
 #include <array>
-#include <cstdlib>
 #include <regex>
+#include <string>
 
 namespace cbc3d::reports {
 namespace {
 
+/// Digits alone, by the pattern.
 int part(const std::smatch& parts, std::size_t number) {
-  return parts[number].matched ? std::atoi(parts[number].str().c_str()) : 0;
+  return parts[number].matched ? std::stoi(parts[number].str()) : 0;
 }
 
 /// "+01:30" as seconds east of Greenwich.

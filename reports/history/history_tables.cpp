@@ -62,7 +62,7 @@ Cell figure_cell(const JobPoint& point, MetricId id, const std::vector<Change>& 
 
 /// In the unit in which the metric is shown.
 std::string value_text(const Change& change, double value) {
-  const metrics::Metric& row = metric(*change.metric);
+  const metrics::Metric& row = metric(change.metric.value());
   const bool is_whole = row.decimals == 0 && value * row.scale != std::round(value * row.scale);
   return format_number(value * row.scale, row.decimals + (is_whole ? 1 : 0));
 }

@@ -46,6 +46,7 @@ std::vector<Commit> commits_of(const std::vector<HistoryRun>& runs) {
     }
   }
   std::vector<std::tuple<std::string, std::string, std::string>> order;
+  order.reserve(dates.size());
   for (const auto& [name, date] : dates) {
     order.emplace_back(date.first, date.second, name);
   }

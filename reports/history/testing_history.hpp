@@ -71,6 +71,7 @@ inline std::vector<double> noisy_times(std::uint64_t seed, std::size_t count,
                                        std::size_t first_changed = 1000, double factor = 1) {
   Noise noise(seed);
   std::vector<double> times;
+  times.reserve(count);
   for (std::size_t n = 0; n < count; ++n) {
     times.push_back(10 * noise.factor(0.02) * (n >= first_changed ? factor : 1));
   }

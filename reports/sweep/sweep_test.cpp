@@ -40,6 +40,7 @@ TEST(Sweep, AllSamplesAreKeptAndOutliersFlagged) {
 
 TEST(Sweep, SixSamplesHaveAnInterval) {
   std::vector<Json> lines;
+  lines.reserve(6);
   for (int repeat = 0; repeat < 6; ++repeat) lines.push_back(sweep_line(1, repeat, 4 + 0.1 * repeat));
   const Json interval = to_json(sweep_points(decode_lines(lines)))[0]["seconds"]["median_interval"];
   EXPECT_GE(interval[0], 4.0);
