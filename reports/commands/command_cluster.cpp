@@ -35,7 +35,14 @@ std::string number_text(double value) {
 /// The options that all jobs have in common.
 std::vector<std::string> common_arguments(const ClusterOptions& options) {
   const Selection& selection = options.selection;
-  std::vector<std::string> list{"--timeout", number_text(options.run.timeout_s), "--memory-limit",
+  const double file_limit_gib = static_cast<double>(options.run.file_limit_bytes) / (1 << 30);
+  std::vector<std::string> list{"--timeout",
+                                number_text(options.run.timeout_s),
+                                "--evaluation-timeout",
+                                number_text(options.run.evaluation_timeout_s),
+                                "--file-limit",
+                                number_text(file_limit_gib),
+                                "--memory-limit",
                                 number_text(options.memory_limit_gib)};
   const auto add = [&](const char* flag, const std::string& value) {
     list.insert(list.end(), {flag, value});
@@ -69,8 +76,9 @@ ClusterJob cluster_job(const Job& job, const Bench& bench, const ClusterOptions&
 int most_minutes(const ClusterOptions& options) {
   constexpr double kSecondsPerMinute = 60;
   constexpr int kStart = 5;
-  const int processes = (options.run.budgets.empty() ? 1 : kMostTries) + 1 + (options.run.solve ? 1 : 0);
-  return static_cast<int>(std::ceil(processes * options.run.timeout_s / kSecondsPerMinute)) + kStart;
+  const int processes = (options.run.budgets.empty() ? 1 : kMostTries) + (options.run.solve ? 1 : 0);
+  const double seconds = processes * options.run.timeout_s + options.run.evaluation_timeout_s;
+  return static_cast<int>(std::ceil(seconds / kSecondsPerMinute)) + kStart;
 }
 
 int write(ClusterOptions options) {

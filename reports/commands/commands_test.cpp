@@ -213,9 +213,25 @@ TEST(Commands, PhantomHonoursSizeAndSpacing) {
   EXPECT_EQ(image.frame.spacing_mm, (Vec3{1, 1.5, 2}));
 }
 
+TEST(Commands, JobsOfAClusterKeepTheLimitsThatWereGiven) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(bench({"cluster", "slurm", "--case", "gate-shells", "--mesher", "cbc3d-paper", "--timeout", "60",
+                   "--evaluation-timeout", "180", "--file-limit", "2", "--memory-limit", "3", "--quiet",
+                   "--out", folder.path() / "jobs"})
+                .exit_code,
+            0);
+  const std::string job = folder.content("jobs/job.sh"), array = folder.content("jobs/array.sbatch");
+  EXPECT_NE(
+      job.find("'--timeout' '60.0' '--evaluation-timeout' '180.0' '--file-limit' '2.0' '--memory-limit' "
+               "'3.0'"),
+      std::string::npos)
+      << job;
+  EXPECT_NE(array.find("#SBATCH --time=9\n"), std::string::npos) << array;  // 1 + 3 minutes, and 5 to begin
+}
+
 TEST(Commands, EveryCommandHasHelp) {
-  for (const char* command :
-       {"list", "run", "sweep", "gate", "report", "merge", "evaluate", "tables", "phantom", "history"}) {
+  for (const char* command : {"list", "run", "sweep", "gate", "report", "merge", "evaluate", "tables",
+                              "phantom", "history", "cluster"}) {
     EXPECT_EQ(bench({command, "--help"}).exit_code, 0) << command;
   }
   for (const char* what : {"meshers", "cases", "suites"}) {
