@@ -1,5 +1,6 @@
 """Runs the module as 3D Slicer does: asks for its description, fills it in, runs it on files and follows its progress."""
 import array
+import json
 import os
 import pathlib
 import re
@@ -85,7 +86,7 @@ class Module(unittest.TestCase):
         described = subprocess.run([os.environ["CBC3D_COMMAND"], "mesh", "--describe-options"], check=True, capture_output=True,
                                    text=True).stdout
         flags = [flag.text for flag in self.root.findall("parameters/*/longflag")]
-        for name in set(re.findall(r'"name": "([a-z-]+)"', described)):
+        for name in {option["name"] for preset in json.loads(described)["presets"] for option in preset["options"]}:
             self.assertEqual(flags.count("--" + name), 1, name)
 
     def run_with(self, values, empty_texts=False):
