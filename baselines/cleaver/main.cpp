@@ -1,10 +1,7 @@
 // cbc3d-mesher-cleaver.
-#include <iostream>
-
 #include "baselines/cleaver/adapter.hpp"
 #include "baselines/cleaver/cleaver_mesher.hpp"
 #include "baselines/core/driver.hpp"
-#include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
 
 namespace {
@@ -18,10 +15,7 @@ CleaverOptions options_of(const ParameterValues& values) {
   options.lipschitz = values.number("lipschitz", 0.01, 10);
   options.feature_scaling = values.number("feature-scaling", 0.01, 100);
   if (values.all().at("blur") != "voxel") options.blur_mm = values.number("blur", 1e-6, 1e6);
-  const std::string& lattice = values.all().at("lattice");
-  if (lattice != "graded" && lattice != "uniform")
-    throw cbc3d::InputError("--lattice " + lattice + ": give graded or uniform");
-  options.graded = lattice == "graded";
+  options.graded = values.one_of("lattice", {"graded", "uniform"}) == "graded";
   return options;
 }
 
@@ -37,7 +31,7 @@ int main(int argc, char** argv) {
   program.run = [](const cbc3d::LabelImage& image, const ParameterValues& values, int,
                    cbc3d::StageClock& stages) {
     auto result = cbc3d::baselines::cleaver::mesh_with_cleaver(image, options_of(values), stages);
-    for (const std::string& note : result.notes) std::cerr << "warning: " << note << '\n';
+    cbc3d::baselines::print_warnings(result.notes);
     return std::move(result.mesh);
   };
   return cbc3d::baselines::run_mesher_program(program, argc, argv);

@@ -56,11 +56,24 @@ int ParameterValues::count(const std::string& key, int lowest, int highest) cons
   return static_cast<int>(result);
 }
 
-bool ParameterValues::flag(const std::string& key) const {
+const std::string& ParameterValues::one_of(const std::string& key,
+                                           const std::vector<std::string>& choices) const {
   const std::string& value = values_.at(key);
-  if (value != "true" && value != "false")
-    throw InputError("--" + key + " " + value + ": give true or false");
-  return value == "true";
+  if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
+    std::string known = choices.front();
+    for (std::size_t c = 1; c < choices.size(); ++c)
+      known += (c + 1 < choices.size() ? ", " : " or ") + choices[c];
+    throw InputError("--" + key + " " + value + ": give " + known);
+  }
+  return value;
+}
+
+bool ParameterValues::flag(const std::string& key) const {
+  return one_of(key, {"true", "false"}) == "true";
+}
+
+void print_warnings(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) std::cerr << "warning: " << note << '\n';
 }
 
 namespace {

@@ -34,6 +34,9 @@ class ParameterValues {
   [[nodiscard]] double number(const std::string& key, double lowest, double highest) const;
   /// The value as a whole number in [lowest, highest]. Throws InputError.
   [[nodiscard]] int count(const std::string& key, int lowest, int highest) const;
+  /// The value, which is one of the choices. Throws InputError.
+  [[nodiscard]] const std::string& one_of(const std::string& key,
+                                          const std::vector<std::string>& choices) const;
   /// The value as true or false. Throws InputError.
   [[nodiscard]] bool flag(const std::string& key) const;
 
@@ -50,6 +53,9 @@ struct MesherProgram {
   /// Meshes the image; the result is in physical space with the image's own labels.
   std::function<Mesh(const LabelImage&, const ParameterValues&, int threads, StageClock&)> run;
 };
+
+/// What a mesher has to say of its mesh, a line each on standard error.
+void print_warnings(const std::vector<std::string>& notes);
 
 /// The whole of main(): parse, read, mesh, write, report. Returns the exit code.
 int run_mesher_program(const MesherProgram& program, int argc, char** argv);

@@ -37,5 +37,17 @@ TEST(ParameterValues, RefuseWhatIsNoSwitch) {
   EXPECT_FALSE(given.flag("on"));
 }
 
+TEST(ParameterValues, RefuseWhatIsNoChoice) {
+  ParameterValues given({{"fruit", "pear", "", "something to eat"}});
+  EXPECT_EQ(given.one_of("fruit", {"apple", "pear", "fig"}), "pear");
+  given.text("fruit") = "stone";
+  try {
+    (void)given.one_of("fruit", {"apple", "pear", "fig"});
+    FAIL() << "a stone was taken";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "--fruit stone: give apple, pear or fig");
+  }
+}
+
 }  // namespace
 }  // namespace cbc3d::baselines

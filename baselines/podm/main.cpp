@@ -1,12 +1,9 @@
 // cbc3d-mesher-podm.
 #include <CGAL/version.h>
 
-#include <iostream>
-
 #include "baselines/core/driver.hpp"
 #include "baselines/podm/adapter.hpp"
 #include "baselines/podm/podm_mesher.hpp"
-#include "mesher/core/error.hpp"
 #include "mesher/core/runtime.hpp"
 
 namespace {
@@ -25,10 +22,7 @@ PodmOptions options_of(const ParameterValues& values) {
   refinement.facet_angle_deg = values.number("facet-angle", 0, 30);
   refinement.size_mm = values.number("size", 0, kLargest);
   refinement.min_dihedral_deg = values.number("min-dihedral", 0, 30);
-  const std::string& surface = values.all().at("surface");
-  if (surface != "voxels" && surface != "smooth")
-    throw cbc3d::InputError("--surface " + surface + ": give voxels or smooth");
-  options.smooth = surface == "smooth";
+  options.smooth = values.one_of("surface", {"voxels", "smooth"}) == "smooth";
   refinement.remove_free = values.flag("remove-free");
   refinement.removals_per_surface_vertex = values.number("removal-cap", 0, kLargest);
   return options;
@@ -48,7 +42,7 @@ int main(int argc, char** argv) {
     PodmOptions options = options_of(values);
     options.refinement.threads = threads;
     auto result = cbc3d::baselines::podm::mesh_with_podm(image, options, stages);
-    for (const std::string& note : result.notes) std::cerr << "warning: " << note << '\n';
+    cbc3d::baselines::print_warnings(result.notes);
     return std::move(result.mesh);
   };
   return cbc3d::baselines::run_mesher_program(program, argc, argv);

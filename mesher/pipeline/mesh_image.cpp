@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
 
 #include "mesher/core/error.hpp"
 #include "mesher/domain/tolerances.hpp"
@@ -12,6 +11,7 @@
 #include "mesher/lattice/part_raster.hpp"
 #include "mesher/lattice/red_green.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
+#include "mesher/pipeline/stage_warnings.hpp"
 #include "mesher/pipeline/work_estimate.hpp"
 
 namespace cbc3d {
@@ -86,82 +86,6 @@ BccLatticeOptions lattice_options(const LabelImage& image, const MeshImageOption
   return lattice;
 }
 
-/// No label is dropped silently, and no region of one either.
-void warn_of_losses(const LabelImage& image, const MaterialMesh& mesh, MeshImageReport& report) {
-  std::vector<std::uint8_t> there(image.material_count(), 0);
-  for (CellId c = 0; c < mesh.cell_count(); ++c) {
-    there[mesh.material_of(c)] = 1;
-  }
-  struct Loss {
-    std::size_t regions = 0, lost_regions = 0, lost_voxels = 0;
-  };
-  std::map<Label, Loss> losses;
-  const std::vector<std::size_t> voxels = image.voxels_per_material();
-  for (std::size_t m = 1; m < there.size(); ++m) {
-    Loss& loss = losses[image.labels[m]];
-    ++loss.regions;
-    loss.lost_regions += there[m] == 0 ? 1 : 0;
-    loss.lost_voxels += there[m] == 0 ? voxels[m] : 0;
-  }
-  for (const auto& [label, loss] : losses) {
-    if (loss.lost_regions > 0) {
-      const std::string what = loss.lost_regions == loss.regions
-                                   ? "label " + std::to_string(label)
-                                   : std::to_string(loss.lost_regions) + " of " +
-                                         std::to_string(loss.regions) + " regions of label " +
-                                         std::to_string(label);
-      report.warnings.push_back(
-          what + " (" + std::to_string(loss.lost_voxels) +
-          " voxels) not in the mesh; a smaller lattice_spacing_mm or max_distance_mm keeps more");
-    }
-  }
-}
-
-void warn_of_cleaning(const CleanReport& clean, MeshImageReport& report) {
-  if (clean.removed.regions_removed > 0) {
-    report.warnings.push_back(std::to_string(clean.removed.regions_removed) + " regions (" +
-                              std::to_string(clean.removed.voxels_removed) +
-                              " voxels) below region_tolerance became background");
-  }
-  if (clean.contacts.joined + clean.contacts.cut > 0) {
-    report.warnings.push_back(
-        "voxels of a label touched at edges or corners alone: " + std::to_string(clean.contacts.joined) +
-        " such places joined and " + std::to_string(clean.contacts.cut) + " cut, by " +
-        std::to_string(clean.contacts.voxels_changed) + " voxels, so that every label has one topology");
-  }
-  if (clean.contacts.contacts_left > 0) {
-    report.warnings.push_back(std::to_string(clean.contacts.contacts_left) +
-                              " places are left where voxels of a label touch at edges or corners alone");
-  }
-  for (const LabelChange& change : clean.labels) {
-    if (change.voxels_before > 0 && change.voxels_after == 0) {
-      report.warnings.push_back("label " + std::to_string(change.label) + " (" +
-                                std::to_string(change.voxels_before) +
-                                " voxels) vanished in the cleaning; relabel_noise none keeps it");
-    }
-  }
-}
-
-void warn_of_topology(const MeshImageOptions& options, MeshImageReport& report) {
-  if (!options.clean.manifold_voxels && options.topology.image_passes == 0) {
-    report.warnings.emplace_back(
-        "topology_checks with manifold_voxels off: contacts of voxels by an edge or a vertex are left to the "
-        "mesh, which will cut or join them");
-  }
-  for (const LabelTopology& t : report.topology.labels) {
-    if (t.components != t.image_regions) {
-      report.warnings.push_back("label " + std::to_string(t.label) + " has " +
-                                std::to_string(t.image_regions) +
-                                " face-connected regions in the cleaned image and " +
-                                std::to_string(t.components) + " in the mesh (the report has their places)");
-    }
-  }
-  if (report.topology.non_manifold_vertices_left > 0) {
-    report.warnings.push_back(std::to_string(report.topology.non_manifold_vertices_left) +
-                              " vertices are left where a label's surface is non-manifold");
-  }
-}
-
 std::vector<TopologyPlace> places_of(const LabelImage& image, const std::vector<std::size_t>& offsets) {
   std::vector<TopologyPlace> places;
   for (const std::size_t offset : offsets) {
@@ -199,46 +123,6 @@ void compare_topology(const LabelImage& image, const MaterialMesh& mesh, MeshIma
   });
 }
 
-std::string betti_text(const Betti& betti) {
-  return std::to_string(betti.parts) + ", " + std::to_string(betti.tunnels) + ", " +
-         std::to_string(betti.cavities);
-}
-
-void warn_of_topology_differences(MeshImageReport& report) {
-  for (const LabelDifference& d : report.topology_differences) {
-    report.warnings.push_back(
-        "label " + std::to_string(d.label) + " has " + betti_text(d.in_image) +
-        " parts, tunnels, cavities in the cleaned image and " + betti_text(d.in_mesh) +
-        " in the mesh (evaluate names the places); a smaller finest_spacing_mm keeps more");
-  }
-}
-
-void warn_of_angles(const MeshImageOptions& options, MeshImageReport& report) {
-  if (report.improve.min_dihedral_after_deg < options.improve.min_dihedral_deg) {
-    char text[128];
-    std::snprintf(text, sizeof(text), "the smallest dihedral angle is %.2f degrees, not %.2f",
-                  report.improve.min_dihedral_after_deg, options.improve.min_dihedral_deg);
-    report.warnings.emplace_back(text);
-  }
-}
-
-void warn_of_missing_hexes(const MeshImageOptions& options, MeshImageReport& report) {
-  if (options.mixed && report.mix.hexes == 0) {
-    report.warnings.emplace_back(
-        "mixed: the mesh has no hexahedra, for no label is thick enough for coarse uniform elements inside; "
-        "a smaller lattice_spacing_mm may help");
-  }
-}
-
-/// Where the image has more parts than so few elements can hold, or the lattice is too coarse for so many.
-void warn_of_elements(const MeshImageOptions& options, std::size_t tets, MeshImageReport& report) {
-  const auto wanted = static_cast<double>(options.elements);
-  if (options.elements > 0 && std::fabs(static_cast<double>(tets) - wanted) > 0.1 * wanted) {
-    report.warnings.push_back("elements " + std::to_string(options.elements) +
-                              " could not be met: the mesh has " + std::to_string(tets));
-  }
-}
-
 /// Tets that are not background.
 std::size_t labelled_tets(const CandidateMesh& mesh) {
   return mesh.materials.size() -
@@ -264,31 +148,10 @@ void scale_lengths(double factor, RefineOptions& refine, ImproveOptions& improve
   }
 }
 
-/// The refinement, and again with smaller lengths while the lattice has too few tets for the decimation to
-/// choose from, where a number of elements is asked for.
-RefineResult refine_for(Lattice& lattice, const ImageDomain& domain, const MeshImageOptions& options,
-                        RefineOptions& refine, ImproveOptions& improve,
-                        const std::function<void(int, std::size_t)>& on_round) {
-  constexpr double kTetsPerElement = 5.5;  // a lattice mesh has about five times the tets of the finished one
-  constexpr double kLeastShrinking = 0.8, kMostShrinking = 0.5;
-  constexpr int kTurns = 8;
-  RefineResult result = refine_lattice(lattice, domain, refine, on_round);
-  for (int turn = 0; options.elements > 0 && turn < kTurns; ++turn) {
-    const double share = static_cast<double>(labelled_tets(result.mesh)) /
-                         (kTetsPerElement * static_cast<double>(options.elements));
-    if (share >= 1) {
-      break;
-    }
-    scale_lengths(std::clamp(std::sqrt(share), kMostShrinking, kLeastShrinking), refine, improve);
-    result = refine_lattice(lattice, domain, refine, on_round);
-  }
-  return result;
-}
-
 /// The hexes that the improvement works around. They have their places in the lattice, unless a deformation
 /// has moved its vertices.
-HexCore choose_core(const MaterialMesh& mesh, const ImageDomain& domain, const ImproveOptions& improve,
-                    const MixOptions& mix) {
+HexCore hex_core_for(const MaterialMesh& mesh, const ImageDomain& domain, const ImproveOptions& improve,
+                     const MixOptions& mix) {
   const double reach_mm = improve.reach_mm > 0 ? improve.reach_mm : tolerances::kReach * domain.scale_mm();
   const double natural_mm = tolerances::kEdgesPerReach * reach_mm;
   const double surface_edge_mm = improve.surface_edge_mm > 0 ? improve.surface_edge_mm : natural_mm;
@@ -301,39 +164,6 @@ HexCore choose_core(const MaterialMesh& mesh, const ImageDomain& domain, const I
                           .longest_mm = longest_mm,
                           .longest_of_material_mm = of_material},
                          mix);
-}
-
-/// The improvement, and around it what mixed elements need: a core that stays, and its merging.
-void improve_stage(MaterialMesh& mesh, const ImageDomain& domain, const MeshImageOptions& options,
-                   ImproveOptions& improve, StageLog& log, const Progress& progress,
-                   MeshImageReport& report) {
-  HexCore core;
-  MixOptions mix = options.mix;
-  mix.red_only = options.deform.iterations == 0;
-  if (options.mixed) {
-    core = log.run("hex_core", 0.5, [&] { return choose_core(mesh, domain, improve, mix); });
-  }
-  // What is merged afterwards counts as one cell.
-  improve.target_tets = options.elements > 0 ? options.elements + core.cells_saved : 0;
-  report.improve = log.run("improvement", 0.5, [&] {
-    return improve_mesh(
-        mesh, domain, improve,
-        [&](int round) {
-          progress.step("improvement, round " + std::to_string(round + 1),
-                        std::min(0.95, 0.5 + 0.06 * round));
-        },
-        core.fixed);
-  });
-  log.dump("5_improved_mesh", mesh);
-  if (options.topology.enabled && options.refine.keep_topology) {
-    compare_topology(domain.image(), mesh, report);
-  }
-  if (options.mixed) {
-    report.mix = log.run("mixed_elements", 0.97, [&] { return merge_hex_core(mesh, core, mix); });
-    log.dump("6_mixed_mesh", mesh);
-  }
-  warn_of_angles(options, report);
-  warn_of_elements(options, mesh.cell_count(), report);
 }
 
 /// Throws InputError beyond the limit, which 0 is not.
@@ -349,81 +179,184 @@ void require_work_within_limit(double limit_s, std::size_t tets_of_rounds, std::
   }
 }
 
-/// From the clean image to the mesh in local mm.
-MaterialMesh mesh_clean_image(const ImageDomain& domain, const MeshImageOptions& options, StageLog& log,
-                              const Progress& progress, MeshImageReport& report) {
-  const LabelImage& image = domain.image();
-  Lattice lattice = log.run(
-      "bcc_lattice", 0.02, [&] { return build_bcc_lattice(image, lattice_options(image, options, report)); });
-  if (log.dumping()) log.dump("1_bcc_lattice", as_material_mesh(lattice));
-
-  RefineOptions refine = refine_options(image, options);
-  ImproveOptions improve = options.improve;
-  improve.keep_topology = options.topology.enabled && options.refine.keep_topology;
-  if (options.edge_length_mm > 0 && improve.enabled) {
-    scale_lengths(options.edge_length_mm / (tolerances::kEdgesPerReach * refine.max_distance_mm), refine,
-                  improve);
+/// The sections of the method after the cleaning, each a step on what the steps before have left.
+class CleanImageMeshing {
+ public:
+  CleanImageMeshing(const ImageDomain& domain, const MeshImageOptions& options, StageLog& log,
+                    const Progress& progress, MeshImageReport& report)
+      : domain_(domain),
+        image_(domain.image()),
+        options_(options),
+        log_(log),
+        progress_(progress),
+        report_(report),
+        refine_(refine_options(image_, options)),
+        improve_(options.improve) {
+    improve_.keep_topology = keeps_topology();
   }
-  std::size_t tets_of_rounds = 0;
-  report.refine = log.run("adaptive_refinement", 0.1, [&] {
-    return refine_for(lattice, domain, options, refine, improve, [&](int round, std::size_t tets) {
-      require_work_within_limit(options.work_limit_s, tets_of_rounds += tets, tets);
-      progress.step(
+
+  /// From the clean image to the mesh in local mm.
+  MaterialMesh run() {
+    build_lattice();           // section 3.3.1
+    refine_adaptively();       // 3.3.2 and 3.3.3
+    check_lattice_topology();  // 3.3.4
+    keep_candidate();
+    if (options_.mixed && !options_.improve.enabled) mix_lattice_elements();  // 3.4
+    if (options_.deform.iterations > 0) deform();                             // 3.5
+    if (options_.improve.enabled) improve();
+    warn_of_missing_hexes(options_, report_);
+    warn_of_topology_differences(report_);
+    return std::move(mesh_);
+  }
+
+ private:
+  [[nodiscard]] bool keeps_topology() const {
+    return options_.topology.enabled && options_.refine.keep_topology;
+  }
+
+  void build_lattice() {
+    lattice_ = log_.run("bcc_lattice", 0.02, [&] {
+      return build_bcc_lattice(image_, lattice_options(image_, options_, report_));
+    });
+    if (log_.dumping()) log_.dump("1_bcc_lattice", as_material_mesh(lattice_));
+  }
+
+  void refine_adaptively() {
+    if (options_.edge_length_mm > 0 && improve_.enabled) {
+      scale_lengths(options_.edge_length_mm / (tolerances::kEdgesPerReach * refine_.max_distance_mm), refine_,
+                    improve_);
+    }
+    report_.refine = log_.run("adaptive_refinement", 0.1, [&] { return refine_for_elements(); });
+    candidate_ = std::move(report_.refine.mesh);
+    report_.finest_spacing_mm = lattice_.frame.spacing_mm(lattice_.frame.max_level);
+  }
+
+  /// The refinement, and again with smaller lengths while the lattice has too few tets for the decimation to
+  /// choose from, where a number of elements is asked for.
+  RefineResult refine_for_elements() {
+    constexpr double kTetsPerElement =
+        5.5;  // a lattice mesh has about five times the tets of the finished one
+    constexpr double kLeastShrinking = 0.8, kMostShrinking = 0.5;
+    constexpr int kTurns = 8;
+    RefineResult result = refine_once();
+    for (int turn = 0; options_.elements > 0 && turn < kTurns; ++turn) {
+      const double share = static_cast<double>(labelled_tets(result.mesh)) /
+                           (kTetsPerElement * static_cast<double>(options_.elements));
+      if (share >= 1) {
+        break;
+      }
+      scale_lengths(std::clamp(std::sqrt(share), kMostShrinking, kLeastShrinking), refine_, improve_);
+      result = refine_once();
+    }
+    return result;
+  }
+
+  RefineResult refine_once() {
+    return refine_lattice(lattice_, domain_, refine_, [this](int round, std::size_t tets) {
+      require_work_within_limit(options_.work_limit_s, tets_of_rounds_ += tets, tets);
+      progress_.step(
           "adaptive_refinement, round " + std::to_string(round) + ", " + std::to_string(tets) + " tets",
           std::min(0.5, 0.1 + 0.03 * round));
     });
-  });
-  CandidateMesh candidate = std::move(report.refine.mesh);
-  report.finest_spacing_mm = lattice.frame.spacing_mm(lattice.frame.max_level);
+  }
 
-  if (options.topology.enabled) {
-    report.topology = log.run("topology_checks", 0.45, [&] {
-      return check_topology(candidate, local_points(lattice), domain, options.topology);
+  void check_lattice_topology() {
+    if (!options_.topology.enabled) {
+      return;
+    }
+    report_.topology = log_.run("topology_checks", 0.45, [&] {
+      return check_topology(candidate_, local_points(lattice_), domain_, options_.topology);
     });
-    warn_of_topology(options, report);
-    if (options.refine.keep_topology) {
-      compare_topology(image, lattice, candidate, report);
+    warn_of_topology(options_, report_);
+    if (options_.refine.keep_topology) {
+      compare_topology(image_, lattice_, candidate_, report_);
     }
   }
 
-  MaterialMesh mesh = log.run("candidate_mesh", 0.5, [&] {
-    MaterialMesh kept = discard_background(local_points(lattice), candidate.tets.nodes, candidate.materials);
-    order_for_locality(kept);
-    // Nothing of the lattice is asked for from here on.
-    candidate = {};
-    lattice = {};
-    return kept;
-  });
-  log.dump("2_candidate_mesh", mesh);
-  report.warnings.insert(report.warnings.end(), report.refine.warnings.begin(), report.refine.warnings.end());
-  warn_of_losses(image, mesh, report);
-
-  if (options.mixed && !options.improve.enabled) {
-    report.mix = log.run("mixed_elements", 0.53, [&] { return mix_elements(mesh, options.mix); });
-    log.dump("3_mixed_mesh", mesh);
+  void keep_candidate() {
+    mesh_ = log_.run("candidate_mesh", 0.5, [&] {
+      MaterialMesh kept =
+          discard_background(local_points(lattice_), candidate_.tets.nodes, candidate_.materials);
+      order_for_locality(kept);
+      // Nothing of the lattice is asked for from here on.
+      candidate_ = {};
+      lattice_ = {};
+      return kept;
+    });
+    log_.dump("2_candidate_mesh", mesh_);
+    report_.warnings.insert(report_.warnings.end(), report_.refine.warnings.begin(),
+                            report_.refine.warnings.end());
+    warn_of_losses(image_, mesh_, report_);
   }
 
-  if (options.deform.iterations > 0) {
-    report.deform = log.run("deformation", 0.55, [&] {
-      return deform_mesh(mesh, image, options.deform, [&](int i) {
-        progress.step("deformation, iteration " + std::to_string(i + 1),
-                      0.55 + 0.4 * i / std::max(1, options.deform.iterations));
+  void mix_lattice_elements() {
+    report_.mix = log_.run("mixed_elements", 0.53, [&] { return mix_elements(mesh_, options_.mix); });
+    log_.dump("3_mixed_mesh", mesh_);
+  }
+
+  void deform() {
+    report_.deform = log_.run("deformation", 0.55, [&] {
+      return deform_mesh(mesh_, image_, options_.deform, [&](int i) {
+        progress_.step("deformation, iteration " + std::to_string(i + 1),
+                       0.55 + 0.4 * i / std::max(1, options_.deform.iterations));
       });
     });
-    log.dump("4_deformed_mesh", mesh);
-    if (report.deform.stopped_early) {
-      report.warnings.push_back("the deformation stopped in iteration " +
-                                std::to_string(report.deform.iterations.size()) +
-                                ": elements stay below the minimum quality; on_failure recover goes on");
+    log_.dump("4_deformed_mesh", mesh_);
+    warn_of_early_stop(report_);
+  }
+
+  /// The improvement, and around it what mixed elements need: a core that stays, and its merging.
+  void improve() {
+    MixOptions mix = options_.mix;
+    mix.red_only = options_.deform.iterations == 0;
+    const HexCore core = choose_core(mix);
+    // What is merged afterwards counts as one cell.
+    improve_.target_tets = options_.elements > 0 ? options_.elements + core.cells_saved : 0;
+    report_.improve = log_.run("improvement", 0.5, [&] {
+      return improve_mesh(
+          mesh_, domain_, improve_,
+          [&](int round) {
+            progress_.step("improvement, round " + std::to_string(round + 1),
+                           std::min(0.95, 0.5 + 0.06 * round));
+          },
+          core.fixed);
+    });
+    log_.dump("5_improved_mesh", mesh_);
+    if (keeps_topology()) {
+      compare_topology(image_, mesh_, report_);
+    }
+    merge_core(core, mix);
+    warn_of_angles(options_, report_);
+    warn_of_elements(options_, mesh_.cell_count(), report_);
+  }
+
+  HexCore choose_core(const MixOptions& mix) {
+    if (!options_.mixed) {
+      return {};
+    }
+    return log_.run("hex_core", 0.5, [&] { return hex_core_for(mesh_, domain_, improve_, mix); });
+  }
+
+  void merge_core(const HexCore& core, const MixOptions& mix) {
+    if (options_.mixed) {
+      report_.mix = log_.run("mixed_elements", 0.97, [&] { return merge_hex_core(mesh_, core, mix); });
+      log_.dump("6_mixed_mesh", mesh_);
     }
   }
-  if (options.improve.enabled) {
-    improve_stage(mesh, domain, options, improve, log, progress, report);
-  }
-  warn_of_missing_hexes(options, report);
-  warn_of_topology_differences(report);
-  return mesh;
-}
+
+  const ImageDomain& domain_;
+  const LabelImage& image_;
+  const MeshImageOptions& options_;
+  StageLog& log_;
+  const Progress& progress_;
+  MeshImageReport& report_;
+  RefineOptions refine_;
+  ImproveOptions improve_;
+  std::size_t tets_of_rounds_ = 0;
+  Lattice lattice_;
+  CandidateMesh candidate_;
+  MaterialMesh mesh_;
+};
 
 /// A wish that nothing would come of is refused.
 void require_dial_has_effect(const MeshImageOptions& options) {
@@ -442,10 +375,6 @@ void require_dial_has_effect(const MeshImageOptions& options) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Cleans and meshes the image and hands the mesh in local mm to `finish` with the domain that it was made
 /// for.
 template <typename Finish>
@@ -458,7 +387,7 @@ auto mesh_and_finish(LabelImage image, const MeshImageOptions& options, const Pr
   warn_of_cleaning(report.clean, report);
 
   const ImageDomain domain(image, options.domain);  // the image does not change any more
-  const MaterialMesh mesh = mesh_clean_image(domain, options, log, progress, report);
+  const MaterialMesh mesh = CleanImageMeshing(domain, options, log, progress, report).run();
   auto finished = finish(mesh, domain, log);
   log.report_seconds();
   return finished;

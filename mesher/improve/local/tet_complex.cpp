@@ -110,6 +110,43 @@ void TetComplex::facets(VertexId v, std::span<const TetId> star, std::vector<Fac
   }
 }
 
+TetId TetComplex::across_ring(TetId t, VertexId a, VertexId b, VertexId keep) const {
+  for (unsigned n = 0; n < 4; ++n) {
+    const VertexId w = tets_[t][n];
+    if (w != a && w != b && w != keep) {
+      return across_[t][n];
+    }
+  }
+  return kNoTet;
+}
+
+std::array<VertexId, 2> TetComplex::ring_ends(TetId t, VertexId a, VertexId b) const {
+  std::array<VertexId, 2> ends{};
+  std::size_t count = 0;
+  for (const VertexId w : tets_[t]) {
+    if (w != a && w != b) {
+      ends[count++] = w;
+    }
+  }
+  // Parity of (a, b, ends) against the tet's own order.
+  const unsigned ia = node_index(t, a);
+  const unsigned ib = node_index(t, b);
+  if ((ia + ib - (ia < ib ? 1U : 0U)) % 2 == 1) {
+    std::swap(ends[0], ends[1]);
+  }
+  return ends;
+}
+
+TetId TetComplex::first_of_ring(TetId found, VertexId a, VertexId b, bool& closed) const {
+  for (TetId t = found;;) {
+    const TetId back = across_ring(t, a, b, ring_ends(t, a, b)[0]);
+    closed = back == found;
+    if (closed) return found;
+    if (back == kNoTet) return t;
+    t = back;
+  }
+}
+
 bool TetComplex::ring(VertexId a, VertexId b, EdgeRing& ring) const {
   ring.vertices.clear();
   ring.tets.clear();
@@ -120,61 +157,20 @@ bool TetComplex::ring(VertexId a, VertexId b, EdgeRing& ring) const {
   if (found == kNoTet) {
     return false;
   }
-  // Rotate backwards to the outside or a full turn, then forwards.
-  const auto step = [&](TetId t, VertexId keep) {  // across the face a, b, keep
-    for (unsigned n = 0; n < 4; ++n) {
-      const VertexId w = tets_[t][n];
-      if (w != a && w != b && w != keep) {
-        return across_[t][n];
-      }
-    }
-    return kNoTet;
-  };
-  const auto ends = [&](TetId t) {  // ring vertices of t, in the positive sense
-    std::array<VertexId, 2> e{};
-    std::size_t count = 0;
-    for (const VertexId w : tets_[t]) {
-      if (w != a && w != b) {
-        e[count++] = w;
-      }
-    }
-    // Parity of (a, b, e0, e1) against the tet's own order.
-    const unsigned ia = node_index(t, a);
-    const unsigned ib = node_index(t, b);
-    if ((ia + ib - (ia < ib ? 1U : 0U)) % 2 == 1) {
-      std::swap(e[0], e[1]);
-    }
-    return e;
-  };
-  TetId first = found;
+  const TetId first = first_of_ring(found, a, b, ring.closed);
   for (TetId t = first;;) {
-    const TetId back = step(t, ends(t)[0]);
-    if (back == kNoTet) {
-      first = t;
-      break;
-    }
-    if (back == found) {
-      ring.closed = true;
-      first = found;
-      break;
-    }
-    t = back;
-  }
-  for (TetId t = first;;) {
-    const auto e = ends(t);
-    ring.vertices.push_back(e[0]);
+    const auto ends = ring_ends(t, a, b);
+    ring.vertices.push_back(ends[0]);
     ring.tets.push_back(t);
-    const TetId next = step(t, e[1]);
+    const TetId next = across_ring(t, a, b, ends[1]);
     if (next == kNoTet) {
-      ring.vertices.push_back(e[1]);
-      break;
+      ring.vertices.push_back(ends[1]);
     }
-    if (next == first) {
-      break;
+    if (next == kNoTet || next == first) {
+      return true;
     }
     t = next;
   }
-  return true;
 }
 
 TetId TetComplex::take_slot() {

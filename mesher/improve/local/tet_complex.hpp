@@ -112,6 +112,12 @@ class TetComplex {
   /// Visits a star's tets until one ends the walk, which is returned; kNoTet: none did, `tets` is the star.
   template <typename Ends>
   TetId walk_star(VertexId v, std::vector<TetId>& tets, const Ends& ends) const;
+  /// Across the face of a, b and `keep`; `t` has all three.
+  [[nodiscard]] TetId across_ring(TetId t, VertexId a, VertexId b, VertexId keep) const;
+  /// The two vertices of t that are not a or b, in the positive sense around ab.
+  [[nodiscard]] std::array<VertexId, 2> ring_ends(TetId t, VertexId a, VertexId b) const;
+  /// Backwards from `found` to the outside, or `found` itself after a full turn.
+  TetId first_of_ring(TetId found, VertexId a, VertexId b, bool& closed) const;
   TetId take_slot();
   void collect_faces(std::span<const TetId> old, std::span<const FreshTet> fresh);
   [[nodiscard]] bool faces_fit(std::span<const TetId> old);
