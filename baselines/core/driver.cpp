@@ -14,6 +14,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/image_io.hpp"
 #include "mesher/core/json_text.hpp"
+#include "mesher/core/runtime.hpp"
 #include "mesher/core/terminal_progress.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 
@@ -217,6 +218,7 @@ Outcome attempt(const MesherProgram& program, Request& request, const ParameterV
 }  // namespace
 
 int run_mesher_program(const MesherProgram& program, int argc, char** argv) {
+  open_standard_streams();
   const Adapter& adapter = program.adapter;
   const ParameterSpecs& specs = adapter.parameters.in({});
   ParameterValues values(specs);

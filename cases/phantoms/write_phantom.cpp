@@ -73,11 +73,12 @@ std::string write_streamed(const Phantom& phantom, const PhantomModel& model, co
   frame.size = phantom.size;
   frame.spacing_mm = phantom.spacing_mm;
   AtomicFile file(path);
+  errno = 0;
   std::ofstream out(file.temporary(), std::ios::binary);
   std::string digest = stream_model(model, frame, out);
   out.close();
   if (!out) {
-    throw JobError("cannot write '" + path.string() + "'; is the disk full?");
+    fail_to_write(path);
   }
   file.commit();
   return digest;

@@ -66,6 +66,7 @@ std::string suggestion(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cbc3d::open_standard_streams();
   cbc3d::let_waiting_threads_sleep(argv);
   cbc3d::keep_freed_memory();
   CLI::App app{"CBC3D: from a segmented multi-label image to a tetrahedral or mixed mesh"};

@@ -287,6 +287,7 @@ void run(TileCommand& command) {
   const std::vector<Page> pages = pages_of(command.slices);
   Slice first;
   AtomicFile file(command.out);
+  errno = 0;
   std::ofstream out(file.temporary(), std::ios::binary);
   for (std::size_t n = 0; n < pages.size() && out; ++n) {
     progress.step("slice " + pages[n].file, static_cast<double>(n) / static_cast<double>(pages.size()));
@@ -301,7 +302,7 @@ void run(TileCommand& command) {
   }
   out.close();
   if (!out) {
-    throw JobError("cannot write '" + command.out + "'; is the disk full?");
+    fail_to_write(command.out);
   }
   file.commit();
   progress.done();

@@ -1,15 +1,46 @@
 #include "mesher/core/atomic_file.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <system_error>
 #include <utility>
 
-#include "mesher/core/error.hpp"
-
 namespace cbc3d {
 namespace fs = std::filesystem;
+namespace {
+
+std::string file_limit_text() {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  return "the file would be larger than the limit of " + std::to_string(limit.rlim_cur) +
+         " bytes that this process has for files (ulimit -f); raise it";
+}
+
+std::string reason_of(int error) {
+  switch (error) {
+    case 0:
+      return "the disk is full or the file cannot be written";
+    case ENOSPC:
+      return "the disk is full; free some space or choose another place";
+    case EDQUOT:
+      return "the disk quota is used up; free some space or choose another place";
+    case EFBIG:
+      return file_limit_text();
+    default:
+      return std::error_code(error, std::generic_category()).message();
+  }
+}
+
+}  // namespace
+
+WriteError::WriteError(const fs::path& path, const std::string& reason)
+    : JobError("cannot write '" + path.string() + "': " + reason), reason_(reason) {}
+
+void fail_to_write(const fs::path& path, int error) {
+  throw WriteError(path, reason_of(error));
+}
 
 void require_writable(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -51,18 +82,28 @@ void AtomicFile::commit() {
   std::error_code error;
   fs::rename(temporary_, path_, error);
   if (error) {
-    throw JobError("cannot write '" + path_.string() + "': " + error.message());
+    fail_to_write(path_, error.value());
   }
   committed_ = true;
 }
 
+void AtomicFile::fill(const std::function<void(const fs::path&)>& write) {
+  try {
+    write(temporary_);
+  } catch (const WriteError& error) {
+    throw WriteError(path_, error.reason());
+  }
+  commit();
+}
+
 void write_text_file(const fs::path& path, std::string_view text) {
   AtomicFile file(path);
+  errno = 0;
   std::ofstream out(file.temporary(), std::ios::binary);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
   if (!out) {
-    throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
+    fail_to_write(path);
   }
   file.commit();
 }

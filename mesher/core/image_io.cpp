@@ -18,10 +18,6 @@ namespace {
 
 using Component = itk::ImageIOBase::IOComponentType;
 
-[[noreturn]] void fail_to_write(const fs::path& path) {
-  throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
-}
-
 template <typename T>
 std::vector<T> label_values(const LabelImage& image) {
   std::vector<T> values(image.voxels.size());
@@ -59,19 +55,21 @@ class QuietStandardError {
 
 /// ITK's writers do not say when a disk is full: what they wrote is read again. Throws JobError.
 void require_whole(const fs::path& written, const fs::path& path) {
+  const int error = errno;
   try {
     formats::ImageHeader header = formats::read_image_header(written);
     formats::require_plausible_length(header);
     std::vector<std::uint8_t> buffer(formats::lead_bytes(header) + formats::voxel_bytes(header));
     formats::read_voxels(header, buffer);
   } catch (const formats::FormatError&) {
-    fail_to_write(path);
+    fail_to_write(path, error);
   }
 }
 
 void write_values(itk::ImageIOBase& io, Component component, const void* values, const fs::path& path) {
   io.SetComponentType(component);
   const QuietStandardError quiet;
+  errno = 0;
   try {
     io.Write(values);
   } catch (const itk::ExceptionObject&) {

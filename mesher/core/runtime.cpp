@@ -1,5 +1,6 @@
 #include "mesher/core/runtime.hpp"
 
+#include <fcntl.h>
 #include <itkMultiThreaderBase.h>
 #include <malloc.h>
 #include <omp.h>
@@ -55,6 +56,17 @@ bool choose_sleeping_waits() {
 void let_waiting_threads_sleep(char** argv) {
   if (choose_sleeping_waits()) {
     ::execv("/proc/self/exe", argv);
+  }
+}
+
+void open_standard_streams() {
+  constexpr int kStreams = 3;
+  int opened = ::open("/dev/null", O_RDWR);
+  while (opened >= 0 && opened < kStreams) {
+    opened = ::open("/dev/null", O_RDWR);
+  }
+  if (opened >= kStreams) {
+    ::close(opened);
   }
 }
 

@@ -20,6 +20,10 @@ bool choose_sleeping_waits();
 /// reads it. Call it first in main(). Does nothing when the program cannot be started again.
 void let_waiting_threads_sleep(char** argv);
 
+/// Opens those of the standard streams that are closed to nothing. Otherwise the next file that is opened
+/// takes their place, and what is said on them goes into it. Call it early in main().
+void open_standard_streams();
+
 /// Makes the process keep freed memory for its next allocations. Memory that is returned comes back page by
 /// page, each cleared by the system, which is serial work. Call it early in main().
 void keep_freed_memory();

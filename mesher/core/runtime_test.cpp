@@ -1,6 +1,9 @@
 // Threads, clocks and memory of the process.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <optional>
@@ -56,6 +59,21 @@ TEST(Runtime, WaitsAreChosenOnlyWhereTheEnvironmentSaysNothing) {
   EXPECT_EQ(policy.value(), "passive");
   EXPECT_NE(spins.value(), "");
   EXPECT_FALSE(choose_sleeping_waits());  // so that a program starts itself once more, and no oftener
+}
+
+// In a child, for GoogleTest needs the streams.
+TEST(Runtime, ClosedStandardStreamsAreOpenedToNothing) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (int stream = 0; stream < 3; ++stream) ::close(stream);
+    open_standard_streams();
+    bool open = ::open("/dev/null", O_RDONLY) >= 3;
+    for (int stream = 0; stream < 3; ++stream) open &= ::fcntl(stream, F_GETFD) == 0;
+    ::_exit(open ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(Runtime, ClocksRunForwardsAndMemoryIsCounted) {

@@ -38,12 +38,7 @@ void write_any(const AnyMesh& mesh, const MeshFormat& format, const fs::path& pa
                const MeshFileOptions& options) {
   const FileMesh view(mesh, {.interfaces = format.interfaces, .split = options.split_interfaces});
   AtomicFile file(path);
-  try {
-    format.write(view, file.temporary(), options);
-  } catch (const JobError&) {  // it names the temporary file
-    throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
-  }
-  file.commit();
+  file.fill([&](const fs::path& temporary) { format.write(view, temporary, options); });
 }
 
 template <typename AnyMesh>

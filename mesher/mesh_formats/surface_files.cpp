@@ -255,8 +255,9 @@ bool has_parts(const std::string& extension) {
 void write_part(const SurfaceMesh& surface, const SurfacePart& part, const fs::path& path,
                 const std::string& coordinates) {
   AtomicFile file(path);
-  (path.extension() == ".stl" ? write_stl : write_ply)(surface, part, file.temporary(), coordinates);
-  file.commit();
+  file.fill([&](const fs::path& temporary) {
+    (path.extension() == ".stl" ? write_stl : write_ply)(surface, part, temporary, coordinates);
+  });
 }
 
 }  // namespace
@@ -303,12 +304,13 @@ std::vector<fs::path> write_surface(const SurfaceMesh& surface, const fs::path& 
   const std::string extension = path.extension().string();
   if (has_parts(extension)) {
     AtomicFile file(path);
-    if (extension == ".obj") {
-      write_obj(surface, file.temporary(), coordinates);
-    } else {
-      Gltf(surface, coordinates).write(file.temporary());
-    }
-    file.commit();
+    file.fill([&](const fs::path& temporary) {
+      if (extension == ".obj") {
+        write_obj(surface, temporary, coordinates);
+      } else {
+        Gltf(surface, coordinates).write(temporary);
+      }
+    });
     return {path};
   }
   std::vector<fs::path> files;

@@ -1,13 +1,13 @@
 #include "mesher/mesh_formats/text_file.hpp"
 
-#include "mesher/core/error.hpp"
+#include "mesher/core/atomic_file.hpp"
 
 namespace cbc3d {
 
 TextFile::TextFile(const std::filesystem::path& path, int digits)
     : path_(path), file_(std::fopen(path.c_str(), "wb")), digits_(digits) {
   if (file_ == nullptr) {
-    throw JobError("cannot write '" + path.string() + "': the file cannot be created");
+    fail_to_write(path);
   }
 }
 
@@ -16,16 +16,25 @@ TextFile::~TextFile() {
 }
 
 void TextFile::flush() {
-  failed_ |= std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size();
+  if (std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size()) {
+    note_failure();
+  }
   buffer_.clear();
+}
+
+void TextFile::note_failure() {
+  failed_ = true;
+  error_ = error_ == 0 ? errno : error_;
 }
 
 void TextFile::close() {
   flush();
-  failed_ |= std::fclose(file_) != 0;
+  if (std::fclose(file_) != 0) {
+    note_failure();
+  }
   file_ = nullptr;
   if (failed_) {
-    throw JobError("cannot write '" + path_.string() + "': the disk is full or the file cannot be written");
+    fail_to_write(path_, error_);
   }
 }
 

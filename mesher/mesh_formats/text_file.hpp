@@ -15,7 +15,7 @@ namespace cbc3d {
 
 class TextFile {
  public:
-  /// `digits`: significant digits of real numbers; 0: as many as their value needs. Throws JobError.
+  /// `digits`: significant digits of real numbers; 0: as many as their value needs. Throws WriteError.
   explicit TextFile(const std::filesystem::path& path, int digits = 0);
   ~TextFile();
   TextFile(const TextFile&) = delete;
@@ -32,7 +32,7 @@ class TextFile {
   void add_bytes(std::span<const std::byte> bytes) {
     add(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
-  /// Throws JobError where anything could not be written.
+  /// Throws WriteError where anything could not be written.
   void close();
 
  private:
@@ -52,12 +52,14 @@ class TextFile {
     buffer_.append(text, end.ptr);
   }
   void flush();
+  void note_failure();
 
   std::filesystem::path path_;
   std::FILE* file_;
   int digits_;
   std::string buffer_;
   bool failed_ = false;
+  int error_ = 0;  ///< errno of the first failure
 };
 
 }  // namespace cbc3d

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mesher/core/error.hpp"
+#include "mesher/core/atomic_file.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 
 namespace cbc3d {
@@ -29,7 +29,13 @@ TEST(TextFile, SaysThatItCannotWrite) {
   EXPECT_THROW(TextFile("/nonexistent/folder/t"), JobError);
   TextFile full("/dev/full");
   full.add("text");
-  EXPECT_THROW(full.close(), JobError);
+  try {
+    full.close();
+    FAIL() << "a full disk was written to";
+  } catch (const WriteError& error) {
+    EXPECT_STREQ(error.what(),
+                 "cannot write '/dev/full': the disk is full; free some space or choose another place");
+  }
 }
 
 }  // namespace

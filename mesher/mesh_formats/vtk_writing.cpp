@@ -14,6 +14,7 @@
 #include <cstring>
 #include <string>
 
+#include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "mesher/mesh_formats/grid_arrays.hpp"
 #include "mesher/mesh_formats/parallel_deflate.hpp"
@@ -101,8 +102,9 @@ void run_writer(Writer& writer, vtkUnstructuredGrid& grid, const fs::path& path)
   writer.AddObserver(vtkCommand::ErrorEvent, faults);
   writer.SetInputData(&grid);
   writer.SetFileName(path.c_str());
+  errno = 0;
   if (writer.Write() != 1 || writer.GetErrorCode() != 0 || !faults->text.empty()) {
-    throw JobError("cannot write '" + path.string() + "': the disk is full or the file cannot be written");
+    fail_to_write(path);
   }
 }
 

@@ -268,6 +268,7 @@ void add_options(CLI::App& app, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cbc3d::open_standard_streams();
   cbc3d::let_waiting_threads_sleep(argv);
   CLI::App app{"Judges a mesh by finite-element solutions on it, against exact ones"};
   Options options;

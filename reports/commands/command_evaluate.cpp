@@ -69,11 +69,12 @@ metrics::LabelShapes shapes_of(const EvaluateCommandOptions& options) {
 /// Straight into the file: of tens of thousands of labels the text is hundreds of megabytes.
 void write_json(const std::string& path, const nlohmann::json& evaluation) {
   AtomicFile file(path);
+  errno = 0;
   std::ofstream out(file.temporary(), std::ios::binary);
   out << std::setw(evaluation.at("quality").at("per_label").size() > 1000 ? 0 : 2) << evaluation << '\n';
   out.close();
   if (!out) {
-    throw JobError("cannot write '" + path + "': the disk is full or the file cannot be written");
+    fail_to_write(path);
   }
   file.commit();
 }

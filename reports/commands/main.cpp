@@ -26,6 +26,7 @@ cbc3d::ProgramHelp program_help() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cbc3d::open_standard_streams();
   // Not for `run`: the meshers that it starts keep the environment they were given.
   if (argc > 1 && std::string_view(argv[1]) == "evaluate") {
     cbc3d::let_waiting_threads_sleep(argv);

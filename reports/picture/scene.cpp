@@ -212,12 +212,13 @@ void write_png(const std::vector<vtkRenderer*>& renderers, const PictureOptions&
   pixels->ReadFrontBufferOff();
   pixels->Update();
   AtomicFile file(png);
+  errno = 0;
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(pixels->GetOutput());
   writer->SetFileName(file.temporary().c_str());
   writer->Write();
   if (!std::filesystem::exists(file.temporary()) || std::filesystem::file_size(file.temporary()) == 0) {
-    throw JobError("cannot write '" + png.string() + "'");
+    fail_to_write(png);
   }
   file.commit();
   if (!options.small_dir.empty()) {

@@ -86,6 +86,7 @@ int run(CLI::App& app, const Arguments& arguments, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cbc3d::open_standard_streams();
   cbc3d::let_waiting_threads_sleep(argv);
   cbc3d::keep_freed_memory();
   CLI::App app{"CBC3D as a command line module of 3D Slicer: a label map in, a mesh out, both in LPS mm"};
