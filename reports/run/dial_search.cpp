@@ -49,6 +49,10 @@ std::optional<double> DialSearch::next() const {
   if (is_met() || !has_tries_left) {
     return std::nullopt;
   }
+  // What was found for other budgets says little of a number that the mesher takes as it is.
+  if (dial_.counts_elements && !was_tried(rounded(budget_))) {
+    return rounded(budget_);
+  }
   const DialTry* nearest = best();
   const auto around = bracket();
   if (!around && nearest != nullptr && is_flat()) {
@@ -116,7 +120,7 @@ double DialSearch::beyond(const DialTry& nearest) const {
 /// The first try; after failures, coarser ones, for large meshes fail by time and memory.
 double DialSearch::without_mesh() const {
   if (tries_.empty()) {
-    return dial_.counts_elements ? budget_ : dial_.first;
+    return dial_.first;
   }
   constexpr double kFewer = 4;
   return tries_.back().value * std::pow(kFewer, -1 / dial_.exponent);
@@ -138,10 +142,11 @@ double DialSearch::measured_exponent() const {
   return dial_.exponent * (ratio > 0 ? std::clamp(ratio, kFlattest, kSteepest) : kFlattest);
 }
 
-/// True when the last step towards the budget changed nothing.
+/// True when the last step towards the budget changed nothing. The steps of earlier searches, whose budgets
+/// were others, may have ended on a floor that this one leaves.
 bool DialSearch::is_flat() const {
   const std::vector<const DialTry*> good = good_by_value();
-  if (good.size() < 2) {
+  if (good.size() < 2 || tries_.size() == known_count_) {
     return false;
   }
   const bool too_many = best()->elements > budget_;

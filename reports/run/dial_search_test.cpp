@@ -71,6 +71,20 @@ TEST(DialSearch, AFloorOfTheImageIsSaidAfterFewTries) {
       << search.reason();
 }
 
+TEST(DialSearch, AFloorThatAnotherBudgetFoundIsLeft) {
+  const auto with_floor = [](double elements) { return std::max(76186.0, elements); };
+  const SizeDial count{.parameter = "elements", .exponent = 1, .highest = 1e9, .counts_elements = true};
+  const DialSearch low = searched(count, 25000, with_floor);
+  EXPECT_FALSE(low.is_met());
+  for (const double budget : {100e3, 400e3}) {
+    EXPECT_TRUE(searched(count, budget, with_floor, low.tries()).is_met()) << budget;
+  }
+  const Mesher lengths = [&](double value) { return with_floor(1e6 * std::pow(value, -2.5)); };
+  const DialSearch coarse = searched(kLength, 25000, lengths);
+  EXPECT_FALSE(coarse.is_met());
+  EXPECT_TRUE(searched(kLength, 400e3, lengths, coarse.tries()).is_met());
+}
+
 TEST(DialSearch, ACeilingByFailuresIsSaidWithThem) {
   const DialSearch search =
       searched(kLength, 1e6, [](double value) { return value < 1 ? 0 : 1e5 * std::pow(value, -2.5); });
