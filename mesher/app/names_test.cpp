@@ -83,7 +83,7 @@ class Names : public testing::CommandTest {
 constexpr const char* kQuick = " --preset paper --iterations 0 --quiet ";
 
 TEST_F(Names, OfSevenSegmentsAreInTheMeshTheReportAndInfo) {
-  for (const char* const mesh : {"m.vtu", "m.vtk"}) {
+  for (const char* const mesh : {"m.vtu", "m.vtk", "m.msh", "m.inp", "m.mesh"}) {
     run("mesh " + at("seven.seg.nrrd") + kQuick + "-o " + at(mesh) + " --report " + at("r.json"));
     const LabelNames names = stated(mesh).names;
     ASSERT_EQ(names.entries().size(), 7U) << mesh;
@@ -105,8 +105,10 @@ TEST_F(Names, AreGroupsAndPartsOfOtherFormats) {
     EXPECT_NE(bytes_of(at(mesh)).find("right_lung"), std::string::npos) << mesh;
   }
   run("mesh " + at("seven.seg.nrrd") + kQuick + "-o " + at("m.vtu"));
-  run("surface " + at("m.vtu") + " --quiet -o " + at("s.obj"));
-  EXPECT_NE(bytes_of(at("s.obj")).find("right_lung"), std::string::npos);
+  for (const char* const mesh : {"m.vtu", "m.msh", "m.inp"}) {
+    run("surface " + at(mesh) + " --quiet -o " + at("s.obj"));
+    EXPECT_NE(bytes_of(at("s.obj")).find("right_lung"), std::string::npos) << mesh;
+  }
 }
 
 TEST_F(Names, AreInWarningsAndInWhatCleanSays) {
@@ -163,6 +165,14 @@ TEST_F(Names, ComeFromTablesAndSurviveImprovement) {
   run("improve " + at("m.vtu") + " --quiet -o " + at("i.vtk") + " --report " + at("i.json"));
   EXPECT_EQ(stated("i.vtk").names.text(2), "core (2)") << "from the mesh";
   EXPECT_EQ(report("i.json")["labels"][0]["name"], "shell");
+  for (const char* const mesh : {"i.msh", "i.inp", "i.mesh"}) {
+    run("improve " + at("i.vtk") + " --coordinates ras --quiet -o " + at(mesh));
+    EXPECT_EQ(stated(mesh).names.text(2), "core (2)") << mesh;
+    EXPECT_EQ(stated(mesh).names.find(1)->colour, (std::array<std::uint8_t, 3>{255, 0, 0})) << mesh;
+    EXPECT_EQ(stated(mesh).coordinates, "RAS") << mesh;
+    run("improve " + at(mesh) + " --quiet -o " + at("again.vtu") + " --report " + at("i.json"));
+    EXPECT_EQ(report("i.json")["labels"][1]["name"], "core") << mesh;
+  }
   run("deform " + at("m.vtu") + " " + at("ball.nii.gz") + " --iterations 1 --quiet -o " + at("d.vtu"));
   EXPECT_EQ(stated("d.vtu").names.text(2), "core (2)");
   write("other.json", R"({"1": "rind"})");

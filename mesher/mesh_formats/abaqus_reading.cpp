@@ -12,6 +12,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/mesh_formats/file_text.hpp"
 #include "mesher/mesh_formats/mesh_builder.hpp"
+#include "mesher/mesh_formats/mesh_statements.hpp"
 
 namespace cbc3d {
 namespace {
@@ -40,10 +41,11 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
-/// "*ELEMENT, TYPE=C3D4, ELSET=A": its keyword and parameters, in capitals without blanks.
+/// "*ELEMENT, TYPE=C3D4, ELSET=A": its keyword and parameters, in capitals without blanks, and as they are
+/// written.
 struct Keyword {
   std::string name;
-  std::map<std::string, std::string> parameters;
+  std::map<std::string, std::string> parameters, written;
 
   explicit Keyword(std::string_view line) {
     for (const std::string_view field : fields_of(line)) {
@@ -52,13 +54,24 @@ struct Keyword {
         name = word;
         continue;
       }
-      const std::size_t equals = word.find('=');
-      parameters[word.substr(0, equals)] = equals == std::string::npos ? "" : word.substr(equals + 1);
+      const std::size_t equals = word.find('='), written_equals = field.find('=');
+      const std::string parameter = word.substr(0, equals);
+      parameters[parameter] = equals == std::string::npos ? "" : word.substr(equals + 1);
+      written[parameter] = equals == std::string::npos ? "" : field.substr(written_equals + 1);
     }
   }
   [[nodiscard]] std::string get(const std::string& parameter) const {
-    const auto found = parameters.find(parameter);
-    return found == parameters.end() ? "" : found->second;
+    return value_in(parameters, parameter);
+  }
+  [[nodiscard]] std::string get_written(const std::string& parameter) const {
+    return value_in(written, parameter);
+  }
+
+ private:
+  static std::string value_in(const std::map<std::string, std::string>& values,
+                              const std::string& parameter) {
+    const auto found = values.find(parameter);
+    return found == values.end() ? "" : found->second;
   }
 };
 
@@ -86,8 +99,8 @@ struct Element {
 
 class AbaqusReader {
  public:
-  explicit AbaqusReader(const std::filesystem::path& path)
-      : file_(path), builder_([this](const std::string& what) { file_.fail(what); }) {}
+  AbaqusReader(const std::filesystem::path& path, MeshFileOptions& stated)
+      : file_(path), builder_([this](const std::string& what) { file_.fail(what); }), statements_(stated) {}
 
   Mesh read() {
     while (!file_.at_end()) read_line();
@@ -95,6 +108,9 @@ class AbaqusReader {
     require_stated_counts();
     take_sets_of_elsets();
     const std::vector<Label> labels = labels_of_sets();
+    for (std::size_t s = 0; s < labels.size(); ++s) {
+      take_group_name(labels[s], written_names_.at(set_names_[s]), statements_.names);
+    }
     for (const Element& element : elements_) {
       const std::size_t corners = row_of(element.kind).corners;
       builder_.add_cell(element.kind, std::span(element.nodes).first(corners),
@@ -109,7 +125,7 @@ class AbaqusReader {
     std::size_t elset;
     std::int64_t first, last, step;
   };
-  enum class Data { other, nodes, elements, element_set };
+  enum class Data { other, heading, nodes, elements, element_set };
 
   void read_line() {
     const std::string_view line = file_.line();
@@ -124,14 +140,22 @@ class AbaqusReader {
         return read_element(fields_of(line));
       case Data::element_set:
         return read_set_line(fields_of(line));
+      case Data::heading:
+        return read_heading(line);
       case Data::other:
         return;
     }
   }
 
+  /// "CBC3D mesh, coordinates LPS, mm"
+  void read_heading(std::string_view line) {
+    constexpr std::string_view kBegin = "CBC3D mesh, ";
+    if (line.starts_with(kBegin)) take_statement(line.substr(kBegin.size()), statements_);
+  }
+
   /// Digits may be missing at the end of a file.
   void require_end_of_line() {
-    if (data_ != Data::other && file_.at_end() && !file_.ends_a_line()) {
+    if (data_ != Data::other && data_ != Data::heading && file_.at_end() && !file_.ends_a_line()) {
       file_.fail("its last line has no end; the file is truncated, or needs an end of line");
     }
   }
@@ -159,6 +183,7 @@ class AbaqusReader {
   /// "** LABEL 5 = liver"
   void read_comment(std::string_view line) {
     read_counts(line);
+    take_statement(line.substr(2), statements_);
     constexpr std::string_view kBegin = "** LABEL ";
     const std::size_t equals = line.find(" = ");
     if (!line.starts_with(kBegin) || equals == std::string_view::npos || equals < kBegin.size()) return;
@@ -172,8 +197,11 @@ class AbaqusReader {
   void read_keyword(const Keyword& keyword) {
     require_whole_element();
     data_ = Data::other;
+    written_names_.emplace(keyword.get("ELSET"), keyword.get_written("ELSET"));
     if (keyword.name == "NODE") {
       data_ = Data::nodes;
+    } else if (keyword.name == "HEADING") {
+      data_ = Data::heading;
     } else if (keyword.name == "ELEMENT") {
       begin_elements(keyword.get("TYPE"), keyword.get("ELSET"));
     } else if (keyword.name == "ELSET") {
@@ -333,18 +361,25 @@ class AbaqusReader {
   std::vector<std::string> set_names_, elset_names_;
   std::vector<std::size_t> set_of_elset_;  // of every *ELSET, once an element is in it
   std::map<std::string, Label> stated_;
+  std::map<std::string, std::string> written_names_;  // of sets, as they were first written
+  MeshFileOptions& statements_;
   std::optional<std::int64_t> stated_nodes_, stated_elements_;
   std::vector<Range> ranges_;
 };
 
 }  // namespace
 
-Mesh read_abaqus(const std::filesystem::path& path, const ReadMeshOptions& options) {
+Mesh read_abaqus(const std::filesystem::path& path, const ReadMeshOptions& options, MeshFileOptions& stated) {
   if (!options.label_array.empty()) {
     throw InputError("cannot read '" + path.string() +
                      "': label_array: an Abaqus file has element sets alone; leave it out");
   }
-  return AbaqusReader(path).read();
+  return AbaqusReader(path, stated).read();
+}
+
+Mesh read_abaqus(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  MeshFileOptions stated;
+  return read_abaqus(path, options, stated);
 }
 
 }  // namespace cbc3d

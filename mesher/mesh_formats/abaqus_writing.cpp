@@ -1,5 +1,6 @@
 #include "mesher/mesh_formats/abaqus_writing.hpp"
 
+#include "mesher/mesh_formats/mesh_statements.hpp"
 #include "mesher/mesh_formats/surface_groups.hpp"
 #include "mesher/mesh_formats/text_file.hpp"
 
@@ -8,11 +9,13 @@ namespace {
 
 constexpr int kDigits = 12;
 
-/// The number of a label in a comment, from which our reader has it again where its set has a name.
+/// The number of a label in a comment, from which our reader has it again where its set has a name; the names
+/// as people read them, and colours.
 void add_labels(TextFile& out, const FileMesh& mesh, const LabelNames& names) {
   for (const Label label : mesh.labels()) {
     out.add("** LABEL ", label, " = ", names.identifier(label), '\n');
   }
+  for (const std::string& line : name_statements(names, mesh.labels())) out.add("** ", line, '\n');
 }
 
 /// The format has no counts, so that our reader could not tell a file that is cut short between two elements.
@@ -62,8 +65,7 @@ void add_surfaces(TextFile& out, const FileMesh& mesh, const LabelNames& names) 
 
 void write_abaqus(const FileMesh& mesh, const std::filesystem::path& path, const MeshFileOptions& options) {
   TextFile out(path, kDigits);
-  out.add("*HEADING\nCBC3D mesh, coordinates ", options.coordinates,
-          options.coordinates == "voxel" ? "" : ", mm", '\n');
+  out.add("*HEADING\nCBC3D mesh, ", coordinates_statement(options), '\n');
   add_counts(out, mesh);
   add_labels(out, mesh, options.names);
   add_nodes(out, mesh);

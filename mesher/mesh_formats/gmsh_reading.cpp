@@ -11,6 +11,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/mesh_formats/file_text.hpp"
 #include "mesher/mesh_formats/mesh_builder.hpp"
+#include "mesher/mesh_formats/mesh_statements.hpp"
 
 namespace cbc3d {
 namespace {
@@ -33,10 +34,11 @@ const CellKindRow* volume_of_type(std::int64_t type) {
 
 class GmshReader {
  public:
-  GmshReader(const std::filesystem::path& path, bool geometrical)
+  GmshReader(const std::filesystem::path& path, bool geometrical, MeshFileOptions& stated)
       : file_(path),
         builder_([this](const std::string& what) { file_.fail(what); }),
-        geometrical_(geometrical) {}
+        geometrical_(geometrical),
+        stated_(stated) {}
 
   Mesh read() {
     while (!file_.at_end()) {
@@ -45,6 +47,7 @@ class GmshReader {
       read_section(section.substr(1, section.find_last_not_of(" \t")));
     }
     if (version_ == 0) file_.fail("not a Gmsh file: it has no $MeshFormat");
+    take_group_names();
     return builder_.take();
   }
 
@@ -58,6 +61,10 @@ class GmshReader {
         version_ < 4 ? read_elements2() : read_elements4();
       } else if (name == "Entities") {
         read_entities();
+      } else if (name == "Comments") {
+        return read_comments();
+      } else if (name == "PhysicalNames") {
+        read_group_names();
       } else if (!file_.skip_past_line("$End" + name)) {
         file_.fail_at_end(("section $" + name).c_str());
       } else {
@@ -97,6 +104,35 @@ class GmshReader {
     }
     version_ = version;
     require_end("MeshFormat");
+  }
+
+  /// Comments may stand before $MeshFormat too.
+  void read_comments() {
+    while (!file_.at_end()) {
+      const std::string_view line = file_.line();
+      if (line.starts_with("$EndComments")) return;
+      take_statement(line, stated_);
+    }
+    file_.fail_at_end("section $Comments");
+  }
+
+  /// `3 5 "right lung"`, text in binary files too.
+  void read_group_names() {
+    const std::size_t count = file_.count("physical names", 6);
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::int64_t dimension = file_.integer("physical names"), group = file_.integer("physical names");
+      const std::string_view rest = file_.line();
+      const std::size_t begin = rest.find('"'), end = rest.rfind('"');
+      if (begin == end) file_.fail("a physical group has no name in quotes; export it again");
+      if (dimension == 3) group_names_.emplace_back(group, rest.substr(begin + 1, end - begin - 1));
+    }
+  }
+
+  /// Names of groups are those of labels where labels are the groups.
+  void take_group_names() {
+    for (const auto& [group, name] : group_names_) {
+      if (!geometrical_) take_group_name(label_of(group), name, stated_.names);
+    }
   }
 
   // Numbers of text or binary files.
@@ -257,21 +293,28 @@ class GmshReader {
   FileText file_;
   MeshBuilder builder_;
   bool geometrical_;
+  MeshFileOptions& stated_;
   double version_ = 0;
   bool binary_ = false;
   std::map<std::int64_t, std::int64_t> group_of_volume_;
+  std::vector<std::pair<std::int64_t, std::string>> group_names_;  // of volumes
   std::vector<std::int64_t> numbers_;
 };
 
 }  // namespace
 
-Mesh read_gmsh(const std::filesystem::path& path, const ReadMeshOptions& options) {
+Mesh read_gmsh(const std::filesystem::path& path, const ReadMeshOptions& options, MeshFileOptions& stated) {
   const std::string& array = options.label_array;
   if (!array.empty() && array != "gmsh:physical" && array != "gmsh:geometrical") {
     throw InputError("cannot read '" + path.string() + "': label_array '" + array +
                      "': a Gmsh file has gmsh:physical and gmsh:geometrical");
   }
-  return GmshReader(path, array == "gmsh:geometrical").read();
+  return GmshReader(path, array == "gmsh:geometrical", stated).read();
+}
+
+Mesh read_gmsh(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  MeshFileOptions stated;
+  return read_gmsh(path, options, stated);
 }
 
 }  // namespace cbc3d

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesher/core/error.hpp"
+#include "mesher/mesh_formats/mesh_statements.hpp"
 #include "mesher/mesh_formats/surface_groups.hpp"
 #include "mesher/mesh_formats/text_file.hpp"
 
@@ -33,9 +34,10 @@ void add_nodes(TextFile& out, std::span<const VertexId> nodes) {
 
 void add_header(TextFile& out, const FileMesh& mesh, const std::vector<SurfaceGroup>& groups,
                 const char* version, const MeshFileOptions& options) {
-  out.add("$MeshFormat\n", version, " 0 8\n$EndMeshFormat\n$Comments\ncoordinates ", options.coordinates,
-          options.coordinates == "voxel" ? "" : ", mm", "\n$EndComments\n$PhysicalNames\n",
-          groups.size() + mesh.labels().size(), '\n');
+  out.add("$MeshFormat\n", version, " 0 8\n$EndMeshFormat\n$Comments\n", coordinates_statement(options),
+          '\n');
+  for (const std::string& line : name_statements(options.names, mesh.labels())) out.add(line, '\n');
+  out.add("$EndComments\n$PhysicalNames\n", groups.size() + mesh.labels().size(), '\n');
   for (std::size_t g = 0; g < groups.size(); ++g) {
     out.add("2 ", g + 1, " \"", groups[g].name, "\"\n");
   }

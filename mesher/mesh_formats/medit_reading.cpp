@@ -9,14 +9,15 @@
 #include "mesher/core/error.hpp"
 #include "mesher/mesh_formats/file_text.hpp"
 #include "mesher/mesh_formats/mesh_builder.hpp"
+#include "mesher/mesh_formats/mesh_statements.hpp"
 
 namespace cbc3d {
 namespace {
 
 class MeditReader {
  public:
-  explicit MeditReader(const std::filesystem::path& path)
-      : file_(path), builder_([this](const std::string& what) { file_.fail(what); }) {}
+  MeditReader(const std::filesystem::path& path, MeshFileOptions& stated)
+      : file_(path), builder_([this](const std::string& what) { file_.fail(what); }), stated_(stated) {}
 
   Mesh read() {
     if (word() != "MeshVersionFormatted") file_.fail("not a Medit text file: it has no MeshVersionFormatted");
@@ -31,8 +32,13 @@ class MeditReader {
  private:
   /// The next word that is in no comment.
   std::string_view word() {
-    while (file_.peek_word().starts_with('#')) file_.line();
+    while (file_.peek_word().starts_with('#')) read_comment(file_.line());
     return file_.word();
+  }
+  void read_comment(std::string_view line) {
+    line.remove_prefix(line.find('#') + 1);
+    constexpr std::string_view kBegin = " CBC3D mesh, ";
+    take_statement(line.starts_with(kBegin) ? line.substr(kBegin.size()) : line, stated_);
   }
   std::int64_t integer(const char* what) { return file_.integer_of(word(), what); }
   std::size_t count(const char* what, std::size_t least_bytes) {
@@ -98,16 +104,22 @@ class MeditReader {
 
   FileText file_;
   MeshBuilder builder_;
+  MeshFileOptions& stated_;
 };
 
 }  // namespace
 
-Mesh read_medit(const std::filesystem::path& path, const ReadMeshOptions& options) {
+Mesh read_medit(const std::filesystem::path& path, const ReadMeshOptions& options, MeshFileOptions& stated) {
   if (!options.label_array.empty()) {
     throw InputError("cannot read '" + path.string() +
                      "': label_array: a Medit file has the references of its cells alone; leave it out");
   }
-  return MeditReader(path).read();
+  return MeditReader(path, stated).read();
+}
+
+Mesh read_medit(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  MeshFileOptions stated;
+  return read_medit(path, options, stated);
 }
 
 }  // namespace cbc3d

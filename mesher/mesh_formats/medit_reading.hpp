@@ -9,7 +9,8 @@
 namespace cbc3d {
 
 /// The reference of a cell is its label. Throws InputError, which names the line; a file without its End is
-/// truncated.
+/// truncated. `stated` becomes what the comments of our files say.
+Mesh read_medit(const std::filesystem::path& path, const ReadMeshOptions& options, MeshFileOptions& stated);
 Mesh read_medit(const std::filesystem::path& path, const ReadMeshOptions& options = {});
 
 }  // namespace cbc3d

@@ -1,5 +1,6 @@
 #include "mesher/mesh_formats/medit_writing.hpp"
 
+#include "mesher/mesh_formats/mesh_statements.hpp"
 #include "mesher/mesh_formats/surface_groups.hpp"
 #include "mesher/mesh_formats/text_file.hpp"
 
@@ -8,11 +9,11 @@ namespace {
 
 void add_comments(TextFile& out, const FileMesh& mesh, const std::vector<SurfaceGroup>& groups,
                   const MeshFileOptions& options) {
-  out.add("# CBC3D mesh, coordinates ", options.coordinates, options.coordinates == "voxel" ? "" : ", mm",
-          '\n');
+  out.add("# CBC3D mesh, ", coordinates_statement(options), '\n');
   for (const Label label : mesh.labels()) {
     out.add("# volume ", label, " = ", options.names.identifier(label), '\n');
   }
+  for (const std::string& line : name_statements(options.names, mesh.labels())) out.add("# ", line, '\n');
   for (std::size_t g = 0; g < groups.size(); ++g) {
     out.add("# surface ", g + 1, " = ", groups[g].name, '\n');
   }

@@ -12,6 +12,7 @@
 #include "mesher/mesh_formats/medit_writing.hpp"
 #include "mesher/mesh_formats/vtk_reading.hpp"
 #include "mesher/mesh_formats/vtk_writing.hpp"
+#include "mesher/mesh_formats/xdmf_writing.hpp"
 
 namespace cbc3d {
 namespace {
@@ -26,22 +27,17 @@ Mesh read_legacy_vtk(const fs::path& path, const ReadMeshOptions& options, MeshF
   return read_vtk(path, VtkFormat::legacy, options.label_array, stated);
 }
 
-/// A reader that takes nothing but the mesh.
-template <Mesh (*Read)(const fs::path&, const ReadMeshOptions&)>
-Mesh read_cells(const fs::path& path, const ReadMeshOptions& options, MeshFileOptions& /*stated*/) {
-  return Read(path, options);
-}
-
 /// name, extension, interfaces, positive labels alone, writer, reader
-constexpr std::array<MeshFormat, 8> kFormats = {{
+constexpr std::array<MeshFormat, 9> kFormats = {{
     {"vtu", ".vtu", false, false, write_vtu, read_vtu},
     {"vtk", ".vtk", false, false, write_vtk, read_legacy_vtk},
     {"vtk-ascii", ".vtk", false, false, write_vtk_text, read_legacy_vtk},
-    {"gmsh22", ".msh", true, true, write_gmsh22, read_cells<read_gmsh>},
-    {"gmsh41", ".msh", true, true, write_gmsh41, read_cells<read_gmsh>},
-    {"abaqus", ".inp", true, false, write_abaqus, read_cells<read_abaqus>},
-    {"medit", ".mesh", true, false, write_medit, read_cells<read_medit>},
+    {"gmsh22", ".msh", true, true, write_gmsh22, read_gmsh},
+    {"gmsh41", ".msh", true, true, write_gmsh41, read_gmsh},
+    {"abaqus", ".inp", true, false, write_abaqus, read_abaqus},
+    {"medit", ".mesh", true, false, write_medit, read_medit},
     {"febio", ".feb", true, false, write_febio, nullptr},
+    {"xdmf", ".xdmf", false, false, write_xdmf, nullptr},
 }};
 
 std::string list_of(std::vector<std::string> words) {

@@ -13,7 +13,7 @@ TEST(MeshFormat, ExtensionsStandForTheFirstFormat) {
   EXPECT_EQ(format_of("a.vtk").name, "vtk");
   EXPECT_EQ(format_of("a.vtk", "vtk-ascii").name, "vtk-ascii");
   EXPECT_EQ(mesh_formats().size(), mesh_format_names().size());
-  EXPECT_EQ(written_extensions(), ".vtu, .vtk, .msh, .inp, .mesh or .feb");
+  EXPECT_EQ(written_extensions(), ".vtu, .vtk, .msh, .inp, .mesh, .feb or .xdmf");
   EXPECT_EQ(read_extensions(), ".vtu, .vtk, .msh, .inp or .mesh");
 }
 

@@ -54,8 +54,8 @@ void write_mesh(const QuadraticMesh& mesh, const std::filesystem::path& path,
 /// The points become LPS mm where the file states other coordinates; voxel coordinates are refused.
 Mesh read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options = {});
 
-/// The same; `stated` becomes what the file says of names and coordinates, where it is a VTK file that says
-/// it. `frame` (or null) is that of the image which voxel coordinates are of.
+/// The same; `stated` becomes what the file says of names, colours and coordinates. `frame` (or null) is that
+/// of the image which voxel coordinates are of.
 Mesh read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options, const ImageFrame* frame,
                MeshFileOptions& stated);
 

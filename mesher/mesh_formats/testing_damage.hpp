@@ -17,12 +17,14 @@ namespace cbc3d::testing {
 /// Reads the text cut at many places, each of which must be refused in one line that names the file, and with
 /// changed bytes, which must end in a mesh or such a line. Returns what is wrong, empty where nothing is. A
 /// cut that takes no more than the last two bytes away may be read.
-template <typename Read>
-std::string damage_taken(const std::string& text, const std::filesystem::path& file, const Read& read) {
+inline std::string damage_taken(const std::string& text, const std::filesystem::path& file,
+                                Mesh (*read)(const std::filesystem::path&, const ReadMeshOptions&,
+                                             MeshFileOptions&)) {
   const auto refusal_of = [&](const std::string& bytes) -> std::string {
     std::ofstream(file, std::ios::binary) << bytes;
     try {
-      read(file, ReadMeshOptions{});
+      MeshFileOptions stated;
+      read(file, ReadMeshOptions{}, stated);
       return "";
     } catch (const InputError& error) {
       const std::string line = error.what();
