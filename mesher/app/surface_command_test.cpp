@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "mesher/app/testing_command.hpp"
+#include "mesher/core/image_io.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/kuhn_box.hpp"
+#include "mesher/testing/test_images.hpp"
 
 namespace cbc3d {
 namespace {
@@ -39,6 +42,37 @@ TEST_F(SurfaceCommand, WritesAPartForEachLabelOrInterface) {
   EXPECT_TRUE(fs::exists(at("s.ply")));
   EXPECT_EQ(run("--out " + at("s.glb")).exit_code, 0);
   EXPECT_EQ(testing::bytes_of(at("s.glb")).substr(0, 4), "glTF");
+}
+
+/// The first vertex of a surface's file in Wavefront's format.
+Vec3 first_vertex(const std::string& text) {
+  Vec3 p;
+  std::istringstream(text.substr(text.find("\nv ") + 3)) >> p.x >> p.y >> p.z;
+  return p;
+}
+
+TEST_F(SurfaceCommand, TakesItsPointsToOtherCoordinatesAndSaysSo) {
+  LabelImage image = testing::ball_image(12, 1, 4);
+  image.frame.spacing_mm = {0.5, 2, 4};
+  image.frame.origin_mm = {-1, 3, 5};
+  image.frame.direction(2, 2) = -1;  // left-handed
+  write_label_image(image, at("ball.nii.gz"));
+  Vec3 lps;
+  for (const std::string coordinates : {"lps", "ras", "voxel"}) {
+    const std::string image_option = coordinates == "voxel" ? " --image " + at("ball.nii.gz") : "";
+    ASSERT_EQ(run("--coordinates " + coordinates + image_option + " -o " + at("s.obj")).exit_code, 0);
+    const std::string text = testing::bytes_of(at("s.obj"));
+    const std::string said = coordinates == "voxel" ? "voxel" : coordinates == "ras" ? "RAS" : "LPS";
+    EXPECT_NE(text.find("coordinates " + said + "\n"), std::string::npos) << text.substr(0, 80);
+    const Vec3 p = first_vertex(text);
+    if (coordinates == "lps") lps = p;
+    const Vec3 expected = coordinates == "lps"   ? lps
+                          : coordinates == "ras" ? Vec3{-lps.x, -lps.y, lps.z}
+                                                 : Vec3{(lps.x + 1) / 0.5, (lps.y - 3) / 2, (lps.z - 5) / -4};
+    EXPECT_NEAR((p - expected).norm(), 0, 1e-9) << coordinates;
+  }
+  expect_refusal("surface " + at("box.vtu") + " --coordinates voxel --out " + at("n.stl"),
+                 "name it by --image", "n.stl");
 }
 
 TEST_F(SurfaceCommand, RefusesWhatItCannotDo) {

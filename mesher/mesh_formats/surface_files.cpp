@@ -149,10 +149,11 @@ void write_obj(const SurfaceMesh& surface, const fs::path& path, const std::stri
 }
 
 /// glTF 2.0 (Khronos Group), binary container: a node, mesh and material for each part, all in one buffer.
-/// Its unit is the metre, so that the nodes scale the millimetres.
+/// Its unit is the metre, so that the nodes scale the millimetres; indices of voxels stay as they are.
 class Gltf {
  public:
-  Gltf(const SurfaceMesh& surface, const std::string& coordinates) : surface_(surface) {
+  Gltf(const SurfaceMesh& surface, const std::string& coordinates)
+      : surface_(surface), scale_(coordinates == "voxel" ? 1.0 : kMetresPerMillimetre) {
     json_ = {
         {"asset", {{"version", "2.0"}, {"generator", "CBC3D"}, {"extras", {{"coordinates", coordinates}}}}},
         {"scene", 0}};
@@ -221,7 +222,6 @@ class Gltf {
     return add_accessor(begin, kElementBuffer, kUnsigned, 3 * part.triangles.size(), "SCALAR");
   }
   void add(const SurfacePart& part) {
-    constexpr double kMetresPerMillimetre = 0.001;
     const Compact used(surface_, part);
     const std::size_t number = json_["nodes"].size();
     const auto linear = [](std::uint8_t c) { return std::pow(c / 255.0, 2.2); };  // from sRGB
@@ -237,13 +237,14 @@ class Gltf {
                                 {{{"attributes", {{"POSITION", positions}}},
                                   {"indices", add_indices(used, part)},
                                   {"material", number}}}}});
-    json_["nodes"].push_back({{"name", part.name},
-                              {"mesh", number},
-                              {"scale", {kMetresPerMillimetre, kMetresPerMillimetre, kMetresPerMillimetre}}});
+    json_["nodes"].push_back({{"name", part.name}, {"mesh", number}, {"scale", {scale_, scale_, scale_}}});
     json_["scenes"][0]["nodes"].push_back(number);
   }
 
+  static constexpr double kMetresPerMillimetre = 0.001;
+
   const SurfaceMesh& surface_;
+  double scale_;
   nlohmann::json json_;
   std::string data_;
 };
