@@ -24,6 +24,7 @@
 #include "mesher/input/input_options.hpp"
 #include "mesher/input/named_text.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
+#include "mesher/mesh_formats/output_texts.hpp"
 #include "mesher/pipeline/mesh_findings.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
@@ -190,9 +191,7 @@ void add_mesh_command(CLI::App& app, int& exit_code) {
                                   OptionGroup::improvement, OptionGroup::deformation}) {
     add_option_flags(*mesh, group, preset_columns(), command->settings);
   }
-  mesh->add_option("--order", command->order,
-                   "1: tets of four nodes; 2: of ten, the edges on boundaries along the smooth ones [1]")
-      ->check(CLI::IsMember({1, 2}));
+  mesh->add_option("--order", command->order, std::string(kOrderText) + " [1]")->check(CLI::IsMember({1, 2}));
   add_mesh_file_options(*mesh, command->writing);
   add_coordinates_option(*mesh, command->writing.coordinates);
   add_input_options(*mesh, InputScope::meshing, command->input);

@@ -1,5 +1,7 @@
 #include "mesher/app/mesh_files.hpp"
 
+#include "mesher/mesh_formats/output_texts.hpp"
+
 namespace cbc3d {
 
 void add_mesh_file_options(CLI::App& command, MeshFileOptions& options) {
@@ -9,8 +11,7 @@ void add_mesh_file_options(CLI::App& command, MeshFileOptions& options) {
                   "vtk-ascii, "
                   ".msh gmsh22 or gmsh41 [the first]")
       ->check(CLI::IsMember(mesh_format_names()));
-  command.add_flag("--split-interfaces", options.split_interfaces,
-                   "every label has nodes of its own where it meets others, for contact problems");
+  command.add_flag("--split-interfaces", options.split_interfaces, kSplitInterfacesText);
 }
 
 void add_label_array_option(CLI::App& command, ReadMeshOptions& options) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/core/image_io.hpp"
-#include "mesher/input/choose_labels.hpp"
+#include "mesher/preprocess/choose_labels.hpp"
 
 namespace cbc3d {
 

@@ -23,6 +23,13 @@ enum class InputScope {
   meshing,  ///< and meshes it from nothing
 };
 
+/// What the image may be: each has the choices of those before it.
+enum class InputSource {
+  volume,  ///< an image of three axes in memory, or a label map of another program
+  array,   ///< any array in memory
+  file,    ///< a file with what it states
+};
+
 /// Where the value of a choice lies. An empty text, list or number is a choice not made.
 using InputField = std::variant<bool*, std::optional<int>*, std::string*, std::vector<Label>*>;
 
@@ -30,6 +37,7 @@ struct InputOption {
   std::string name;       ///< on the command line two hyphens precede it; in the report _ stands for -
   std::string parameter;  ///< as the library's messages name it, where they do
   InputScope scope = InputScope::reading;
+  InputSource source = InputSource::file;
   std::string symbol;        ///< stands for the value in a help text: "N", "L1,L2"; empty for a switch
   std::string text;          ///< what it does, one line
   std::string default_text;  ///< what holds where the choice is not made; empty for a switch
@@ -38,6 +46,13 @@ struct InputOption {
 
 /// All choices, in the order in which a help text shows them.
 const std::vector<InputOption>& input_options();
+
+/// The choices that a source has of those of a scope.
+std::vector<const InputOption*> input_options_of(InputSource source, InputScope scope);
+
+/// Makes a choice by a text, as on the command line: "2,5" for labels; "true" and "false" for switches.
+/// Throws InputError.
+void set_input_option(const InputOption& option, const std::string& value, ImageInput& input);
 
 /// What users see over these options: "Input image".
 std::string input_heading();

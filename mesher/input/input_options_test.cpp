@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
+#include "mesher/core/error.hpp"
 #include "mesher/input/image_input.hpp"
 
 namespace cbc3d {
@@ -55,6 +57,49 @@ TEST(InputOptions, HaveFieldsOfTheirOwnAndSayWhatHoldsWithoutThem) {
     EXPECT_EQ(option.symbol.empty(), option.default_text.empty()) << option.name;
   }
   EXPECT_EQ(fields.size(), input_options().size());
+}
+
+TEST(InputOptions, SourcesHaveTheChoicesThatMakeSenseForThem) {
+  const auto names = [](InputSource source) {
+    std::vector<std::string> found;
+    for (const InputOption* option : input_options_of(source, InputScope::image))
+      found.push_back(option->name);
+    return found;
+  };
+  EXPECT_EQ(names(InputSource::volume),
+            (std::vector<std::string>{"background", "labels", "keep-rest", "many-labels"}));
+  EXPECT_EQ(names(InputSource::array), (std::vector<std::string>{"volume", "background", "labels",
+                                                                 "keep-rest", "names", "many-labels"}));
+  EXPECT_EQ(input_options_of(InputSource::file, InputScope::meshing).size(), input_options().size());
+}
+
+const InputOption& option_named(const std::string& name) {
+  const auto& all = input_options();
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const InputOption& option) { return option.name == name; });
+}
+
+TEST(InputOptions, AreSetByTexts) {
+  ImageInput input;
+  set_input_option(option_named("labels"), "2, -5,7", input);
+  set_input_option(option_named("keep-rest"), "true", input);
+  set_input_option(option_named("volume"), "3", input);
+  set_input_option(option_named("names"), "n.tsv", input);
+  EXPECT_EQ(input.choice.labels, (std::vector<Label>{2, -5, 7}));
+  EXPECT_TRUE(input.choice.keep_rest);
+  EXPECT_EQ(input.read.volume, 3);
+  EXPECT_EQ(input.names_file, "n.tsv");
+  for (const auto& [name, text] :
+       {std::pair("labels", "2,"), std::pair("labels", "two"), std::pair("labels", ""),
+        std::pair("labels", "2 5"), std::pair("labels", "3000000000"), std::pair("volume", "-1"),
+        std::pair("volume", "1,2"), std::pair("keep-rest", "yes")}) {
+    try {
+      set_input_option(option_named(name), text, input);
+      FAIL() << name << " " << text;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.parameter(), name) << text;
+    }
+  }
 }
 
 TEST(InputOptions, VolumesAreCountedFromZero) {

@@ -1,4 +1,4 @@
-#include "mesher/input/choose_labels.hpp"
+#include "mesher/preprocess/choose_labels.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 // Choices of labels and background on an image whose labels are known.
-#include "mesher/input/choose_labels.hpp"
+#include "mesher/preprocess/choose_labels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/input/input_options.hpp"
 #include "mesher/pipeline/option_table.hpp"
 
 namespace cbc3d::python {
@@ -16,6 +17,11 @@ using Replacement = std::pair<std::regex, std::string>;
 std::vector<Replacement> replacements() {
   std::vector<Replacement> all = {{std::regex("\\bmanifold_voxels off\\b"), "no_manifold_voxels=True"},
                                   {std::regex("\\bmax_deviation_mm\\b"), "max_deviation"}};
+  for (const InputOption& option : input_options()) {
+    const bool is_word = option.name.find('-') == std::string::npos;
+    all.emplace_back(std::regex((is_word ? "--" : "(--)?\\b") + option.name + "\\b"),
+                     keyword_of(option.name));
+  }
   for (const OptionRow& row : option_table()) {
     const std::string keyword = keyword_of(row.name);
     if (keyword != row.name) {

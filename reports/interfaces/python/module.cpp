@@ -6,10 +6,14 @@
 #include <utility>
 
 #include "mesher/core/error.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
+#include "mesher/mesh_formats/output_texts.hpp"
 #include "mesher/pipeline/presets.hpp"
+#include "reports/interfaces/python/input_values.hpp"
 #include "reports/interfaces/python/keyword_names.hpp"
 #include "reports/interfaces/python/mesh_class.hpp"
 #include "reports/interfaces/python/option_values.hpp"
+#include "reports/interfaces/python/watched_work.hpp"
 #include "reports/interfaces/python/work.hpp"
 
 #include <pybind11/stl.h>
@@ -79,6 +83,13 @@ PYBIND11_MODULE(_core, module) {
   add_mesh_class(module);
   add_work(module);
   module.def("option_rows", &option_rows);
+  module.def("input_rows", &input_rows);
   module.def("preset_names", &cbc3d::preset_names);
+  module.def("mesh_format_names", &cbc3d::mesh_format_names);
+  module.attr("order_text") = cbc3d::kOrderText;
+  module.attr("split_interfaces_text") = cbc3d::kSplitInterfacesText;
+  module.def("works_left_behind", &works_left_behind);
+  // The interpreter ends after the threads that use its process.
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&wait_for_works_left_behind));
   module.attr("__version__") = CBC3D_VERSION;
 }

@@ -7,6 +7,7 @@
 #include "mesher/core/error.hpp"
 #include "mesher/core/one_line.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/mesh_formats/output_texts.hpp"
 #include "mesher/pipeline/presets.hpp"
 #include "reports/interfaces/slicer/module_description.hpp"
 #include "reports/interfaces/slicer/module_run.hpp"
@@ -34,6 +35,23 @@ void add_options(CLI::App& app, ModuleRun& run) {
   }
 }
 
+/// The choices about the label map; an empty text is a choice not made.
+void add_input_options(CLI::App& app, cbc3d::ImageInput& input) {
+  for (const cbc3d::InputOption* const option : cbc3d::slicer::module_input_options()) {
+    if (option->symbol.empty()) {
+      app.add_flag_callback(
+          "--" + option->name, [option, &input] { set_input_option(*option, "true", input); }, option->text);
+      continue;
+    }
+    app.add_option_function<std::string>(
+        "--" + option->name,
+        [option, &input](const std::string& text) {
+          if (!text.empty()) set_input_option(*option, text, input);
+        },
+        option->text);
+  }
+}
+
 void print_description() {
   std::cout << cbc3d::slicer::module_description(CBC3D_VERSION);
   throw CLI::Success();
@@ -55,10 +73,13 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--threads", arguments.threads, "0: all cores")->check(CLI::Range(0, 1024));
   app.add_option("--returnparameterfile", arguments.return_parameters)->group("");
   app.add_option("--processinformationaddress", arguments.process_address)->group("");
+  app.add_option("--order", arguments.run.order, cbc3d::kOrderText)->check(CLI::IsMember({1, 2}));
+  app.add_flag("--split-interfaces", arguments.run.writing.split_interfaces, cbc3d::kSplitInterfacesText);
+  add_input_options(app, arguments.run.input);
   add_options(app, arguments.run);
 }
 
-int run(CLI::App& app, const Arguments& arguments, int argc, char** argv) {
+int run(CLI::App& app, Arguments& arguments, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     cbc3d::set_thread_count(arguments.threads);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/input/image_input.hpp"
+#include "mesher/mesh_formats/output_texts.hpp"
 #include "mesher/pipeline/presets.hpp"
 
 namespace cbc3d::slicer {
@@ -21,17 +23,16 @@ std::string element(const std::string& name, const std::string& text) {
 }
 
 /// "max-distance" as "Max distance".
-std::string label_of(const OptionRow& row) {
-  std::string label = row.name;
-  std::replace(label.begin(), label.end(), '-', ' ');
-  label[0] = static_cast<char>(label[0] - 'a' + 'A');
-  return label + (row.unit.empty() ? "" : " (" + row.unit + ")");
+std::string label_of(std::string name, const std::string& unit) {
+  std::replace(name.begin(), name.end(), '-', ' ');
+  name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  return name + (unit.empty() ? "" : " (" + unit + ")");
 }
 
 /// Names of parameters are identifiers.
-std::string identifier_of(const OptionRow& row) {
+std::string identifier_of(const std::string& option) {
   std::string name;
-  for (const char c : row.name) {
+  for (const char c : option) {
     const bool begins = !name.empty() && name.back() == '-';
     if (begins) name.pop_back();
     name += begins ? static_cast<char>(c - 'a' + 'A') : c;
@@ -105,9 +106,14 @@ std::string parameter(const std::string& type, const std::string& content) {
   return "    <" + type + ">\n" + content + "    </" + type + ">\n";
 }
 
+/// What every parameter begins with.
+std::string head_of(const std::string& name, const std::string& description, const std::string& unit = {}) {
+  return element("name", identifier_of(name)) + element("longflag", "--" + name) +
+         element("description", description) + element("label", label_of(name, unit));
+}
+
 std::string parameter_of(const OptionRow& row) {
-  const std::string head = element("name", identifier_of(row)) + element("longflag", "--" + row.name) +
-                           element("description", description_of(row)) + element("label", label_of(row));
+  const std::string head = head_of(row.name, description_of(row), row.unit);
   switch (widget_of(row)) {
     case Widget::boolean:
       return parameter("boolean", head + element("default", "false"));
@@ -139,6 +145,22 @@ std::string files_group() {
          "    </geometry>\n  </parameters>\n";
 }
 
+/// What of the label map is meshed.
+std::string input_group() {
+  std::string text = "  <parameters>\n    <label>" + escaped(input_heading()) +
+                     "</label>\n    <description>What of the label map is meshed</description>\n";
+  ImageInput input;
+  for (const InputOption* const option : module_input_options()) {
+    const bool is_switch = std::holds_alternative<bool*>(option->field(input));
+    text +=
+        is_switch
+            ? parameter("boolean", head_of(option->name, option->text) + element("default", "false"))
+            : parameter("string", head_of(option->name, option->text + "; empty: " + option->default_text) +
+                                      element("default", ""));
+  }
+  return text + "  </parameters>\n";
+}
+
 std::string first_group() {
   std::string text =
       "  <parameters>\n    <label>Mesh</label>\n    <description>What most users set</description>\n" +
@@ -150,6 +172,10 @@ std::string first_group() {
   for (const std::string& name : first_options()) {
     text += parameter_of(find_option(name));
   }
+  text += parameter("string-enumeration", head_of("order", kOrderText) + element("default", "1") +
+                                              choices_of(std::vector<std::string>{"1", "2"}));
+  text +=
+      parameter("boolean", head_of("split-interfaces", kSplitInterfacesText) + element("default", "false"));
   return text +
          parameter("integer", element("name", "threads") + element("longflag", "--threads") +
                                   element("description", "0: all cores") + element("label", "Threads") +
@@ -194,6 +220,10 @@ Widget widget_of(const OptionRow& row) {
   return row.kind == OptionKind::count ? Widget::integer : Widget::real;
 }
 
+std::vector<const InputOption*> module_input_options() {
+  return input_options_of(InputSource::volume, InputScope::image);
+}
+
 const std::vector<std::string>& first_options() {
   static const std::vector<std::string> kFirst = {"elements", "edge-length",  "max-distance",
                                                   "size",     "min-dihedral", "mixed"};
@@ -212,7 +242,7 @@ std::string module_description(const std::string& version) {
       "  <contributor>The CBC3D developers</contributor>\n  <acknowledgements>The method is that of "
       "Drakopoulos "
       "et al., Image-To-Mesh Conversion for Biomedical Simulations.</acknowledgements>\n" +
-      files_group() + first_group();
+      files_group() + input_group() + first_group();
   for (const OptionGroup folded : kFolded) {
     text += folded_group(folded);
   }

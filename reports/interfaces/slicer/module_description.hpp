@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/input/input_options.hpp"
 #include "mesher/pipeline/option_table.hpp"
 
 namespace cbc3d::slicer {
@@ -27,7 +28,11 @@ Widget widget_of(const OptionRow& row);
 /// The options that most users look for first, by name; the others are in groups that Slicer folds.
 const std::vector<std::string>& first_options();
 
-/// The description: a label map in, a model out, the preset and every option of the table.
+/// The choices about the label map, which Slicer hands over without names and other layers.
+std::vector<const InputOption*> module_input_options();
+
+/// The description: a label map in, a model out, what of the map is meshed, the preset and every option of
+/// the table.
 std::string module_description(const std::string& version);
 
 }  // namespace cbc3d::slicer

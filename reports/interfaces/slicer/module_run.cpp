@@ -6,14 +6,13 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
-#include "mesher/core/image_io.hpp"
 #include "mesher/core/progress.hpp"
 #include "mesher/core/runtime.hpp"
+#include "mesher/input/named_text.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/pipeline/mesh_findings.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
-#include "mesher/preprocess/grey_check.hpp"
 
 namespace cbc3d::slicer {
 namespace {
@@ -45,46 +44,57 @@ class FilterLines {
   Stopwatch watch_;
 };
 
-LabelImage read(const ModuleRun& run, std::vector<std::string>& warnings) {
-  LabelImage image = read_label_image(run.label_map, {}, &warnings);
-  if (const std::string reason = why_grey(image); !reason.empty()) {
-    throw InputError("'" + run.label_map.string() + "': " + reason +
-                     "; choose a label map or segmentation, not a grey volume");
+/// Meshes and writes; returns the mesh, of order 2 that of the corners.
+Mesh mesh_and_write(const ModuleRun& run, LabelImage image, const MeshImageOptions& options,
+                    const Progress& progress, MeshImageReport& report) {
+  QuadraticMesh quadratic;
+  Mesh mesh;
+  if (run.order == 2) {
+    quadratic = mesh_image_quadratic(std::move(image), options, progress, report);
+    mesh = corner_mesh(quadratic);
+  } else {
+    mesh = mesh_image(std::move(image), options, progress, report);
   }
-  return image;
+  if (mesh.cell_count() == 0) {
+    throw JobError("the mesh is empty: no label is larger than the lattice; give a smaller lattice spacing");
+  }
+  progress.step("writing", 0.97);
+  if (run.order == 2) {
+    write_mesh(quadratic, run.model, run.writing);
+  } else {
+    write_mesh(mesh, run.model, run.writing);
+  }
+  return mesh;
 }
 
 }  // namespace
 
-std::vector<std::string> run_module(const ModuleRun& run, std::ostream& out) {
-  require_writable_mesh_path(run.model);
+std::vector<std::string> run_module(ModuleRun& run, std::ostream& out) {
+  require_writable_mesh_path(run.model, run.writing);
   FilterLines lines(out);
   const auto step = [&lines](std::string_view stage, double fraction) {
     lines.step(stage, fraction);
     return true;
   };
   step("reading", 0);
-  std::vector<std::string> warnings;
-  LabelImage image = read(run, warnings);
+  LabelImage image = read_input_image(run.label_map.string(), run.input);
+  run.writing.names = run.input.names;
   const ImageFrame frame = image.frame;
   MeshImageOptions options = preset_options(run.preset, frame);
   apply_settings(run.settings, options);
   require_known_labels(options, image);
   MeshImageReport report;
-  const Mesh mesh = mesh_image(std::move(image), options, Progress(step), report);
-  if (mesh.cell_count() == 0) {
-    throw JobError("the mesh is empty: no label is larger than the lattice; give a smaller lattice spacing");
-  }
-  step("writing", 0.97);
-  write_mesh(mesh, run.model);
+  const Mesh mesh = mesh_and_write(run, std::move(image), options, Progress(step), report);
   if (run.model.extension() == ".vtk") {
     state_lps(run.model);
   }
   step("done", 1);
+  std::vector<std::string> warnings = run.input.warnings;
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
   for (std::string& finding : mesh_findings(mesh, report, frame)) {
     warnings.push_back(std::move(finding));
   }
+  for (std::string& warning : warnings) warning = with_names(warning, run.input.names);
   return warnings;
 }
 

@@ -89,6 +89,17 @@ class Module(unittest.TestCase):
         for name in {option["name"] for preset in json.loads(described)["presets"] for option in preset["options"]}:
             self.assertEqual(flags.count("--" + name), 1, name)
 
+    def test_choices_about_the_label_map_are_the_table_s(self):
+        group, = [group for group in self.root.findall("parameters") if group.findtext("label") == "Input image"]
+        described = json.loads(subprocess.run([os.environ["CBC3D_COMMAND"], "mesh", "--describe-options"], check=True,
+                                              capture_output=True, text=True).stdout)["input"]
+        texts = {"--" + option["name"]: option["text"] for option in described}
+        flags = [flag.text for flag in group.findall("*/longflag")]
+        self.assertEqual(flags, ["--background", "--labels", "--keep-rest", "--many-labels"])
+        for parameter in group.findall("*"):
+            if parameter.find("longflag") is not None:
+                self.assertTrue(parameter.findtext("description").startswith(texts[parameter.findtext("longflag")]))
+
     def run_with(self, values, empty_texts=False):
         write_balls(self.path / "in.nrrd")
         command = command_line(self.root, self.path, values, empty_texts)
@@ -124,8 +135,35 @@ class Module(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.check_progress(done.stdout)
 
+    def labels_of_model(self):
+        """Of the cells, from the model as text; and how many nodes the first cell has."""
+        subprocess.run([os.environ["CBC3D_COMMAND"], "improve", "out.vtk", "--out", "again.inp", "--quiet"], cwd=self.path,
+                       check=True, capture_output=True)
+        return set(re.findall(r"ELSET=(\w+)", (self.path / "again.inp").read_text()))
+
+    def test_it_meshes_what_is_chosen(self):
+        for values, labels in (({"labels": "7"}, {"label_7"}), ({"labels": "1", "keepRest": "true"}, {"label_1", "rest"}),
+                               ({"background": "0,1"}, {"label_7"})):
+            done = self.run_with({"preset": "paper", "iterations": "0", **values})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(self.labels_of_model(), labels)
+
+    def test_it_writes_quadratic_tets_and_split_interfaces(self):
+        sizes = {}
+        for name, values in (("linear", {}), ("quadratic", {"order": "2"}), ("split", {"splitInterfaces": "true"})):
+            done = self.run_with({"preset": "paper", "iterations": "0", **values})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            bytes_ = (self.path / "out.vtk").read_bytes()
+            points = int(re.search(rb"POINTS (\d+)", bytes_).group(1))
+            cells, numbers = map(int, re.search(rb"CELLS (\d+) (\d+)", bytes_).groups())
+            sizes[name] = points, cells, numbers
+        self.assertEqual(sizes["quadratic"][2], 11 * sizes["quadratic"][1])
+        self.assertEqual(sizes["linear"][2], 5 * sizes["linear"][1])
+        self.assertEqual(sizes["split"][1:], sizes["linear"][1:])
+        self.assertGreater(sizes["split"][0], sizes["linear"][0])
+
     def test_it_refuses_in_one_line(self):
-        for values, text in (({"minDihedral": "steep"}, "min-dihedral"), ({"size": "9=1"}, "no label 9")):
+        for values, text in (({"labels": "9"}, "no label 9"), ({"labels": "one"}, "labels"), ({"minDihedral": "steep"}, "min-dihedral"), ({"size": "9=1"}, "no label 9")):
             done = self.run_with(values)
             self.assertEqual(done.returncode, 2)
             self.assertIn(text, done.stderr)

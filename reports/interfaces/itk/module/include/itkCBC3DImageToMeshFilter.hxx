@@ -1,9 +1,11 @@
 #ifndef itkCBC3DImageToMeshFilter_hxx
 #define itkCBC3DImageToMeshFilter_hxx
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "itkCBC3DImageToMeshFilter.h"
@@ -30,7 +32,7 @@ using Integer = std::conditional_t<
 /** Adds one tetrahedron and its label. */
 template <typename TMesh>
 void
-AddTetrahedron(TMesh & mesh, const std::array<cbc3d::VertexId, 4> & nodes, cbc3d::Label label)
+AddTetrahedron(TMesh & mesh, std::span<const cbc3d::VertexId> nodes, cbc3d::Label label)
 {
   using CellType = TetrahedronCell<typename TMesh::CellType>;
   typename TMesh::CellAutoPointer cell;
@@ -43,7 +45,46 @@ AddTetrahedron(TMesh & mesh, const std::array<cbc3d::VertexId, 4> & nodes, cbc3d
   mesh.SetCell(id, cell);
   mesh.SetCellData(id, static_cast<typename TMesh::CellPixelType>(label));
 }
+
+/** The text with the filter's names in place of the command's flags. */
+inline std::string
+WithNames(std::string text)
+{
+  for (const auto & [flag, name] :
+       { std::pair("--labels", "Labels"), std::pair("--keep-rest", "KeepRest"), std::pair("--background", "Background") })
+  {
+    for (std::size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at))
+    {
+      text.replace(at, std::string_view(flag).size(), name);
+    }
+  }
+  return text;
+}
 } // namespace CBC3D
+
+template <typename TInputImage, typename TOutputMesh>
+void
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetLabels(const std::vector<int> & labels)
+{
+  m_Choice.labels = labels;
+  this->Modified();
+}
+
+template <typename TInputImage, typename TOutputMesh>
+void
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetBackground(const std::vector<int> & values)
+{
+  m_Choice.background = values;
+  this->Modified();
+}
+
+template <typename TInputImage, typename TOutputMesh>
+void
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetKeepRest(bool keep)
+{
+  m_Choice.keep_rest = keep;
+  this->Modified();
+}
 
 template <typename TInputImage, typename TOutputMesh>
 void
@@ -105,28 +146,71 @@ CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::FrameOfInput()
 }
 
 template <typename TInputImage, typename TOutputMesh>
-cbc3d::Mesh
-CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::MeshInput()
+cbc3d::LabelImage
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::ReadInput(std::vector<std::string> & warnings)
 {
   using Integer = CBC3D::Integer<InputPixelType>;
-  const TInputImage * const image = this->GetInput();
-  const cbc3d::ImageFrame   frame = this->FrameOfInput();
-  const std::span<const Integer> labels(reinterpret_cast<const Integer *>(image->GetBufferPointer()), frame.voxel_count());
-  cbc3d::MeshImageOptions options = cbc3d::preset_options(m_Preset, frame);
+  const cbc3d::ImageFrame        frame = this->FrameOfInput();
+  const std::span<const Integer> labels(reinterpret_cast<const Integer *>(this->GetInput()->GetBufferPointer()),
+                                        frame.voxel_count());
+  cbc3d::LabelImage image = cbc3d::to_label_image(labels, frame);
+  cbc3d::LabelNames names;
+  cbc3d::choose_labels(image, names, m_Choice, "the input image", warnings);
+  return image;
+}
+
+template <typename TInputImage, typename TOutputMesh>
+cbc3d::MeshImageOptions
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::OptionsFor(const cbc3d::LabelImage & image) const
+{
+  if (m_Order != 1 && m_Order != 2)
+  {
+    throw cbc3d::InputError("Order " + std::to_string(m_Order) + ": give 1 or 2");
+  }
+  cbc3d::MeshImageOptions options = cbc3d::preset_options(m_Preset, image.frame);
   cbc3d::apply_settings(m_Options, options);
   if (options.mixed)
   {
     throw cbc3d::InputError("mixed true: ITK has no cell for pyramids; give false");
   }
+  cbc3d::require_known_labels(options, image);
+  return options;
+}
+
+template <typename TInputImage, typename TOutputMesh>
+void
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::MeshInput()
+{
   cbc3d::set_thread_count(m_NumberOfThreads);
-  cbc3d::LabelImage labelled = cbc3d::to_label_image(labels, frame);
-  cbc3d::require_known_labels(options, labelled);
-  const cbc3d::Progress progress([this](std::string_view, double fraction) {
+  std::vector<std::string>      warnings;
+  cbc3d::LabelImage             image = this->ReadInput(warnings);
+  const cbc3d::ImageFrame       frame = image.frame;
+  const cbc3d::MeshImageOptions options = this->OptionsFor(image);
+  const cbc3d::Progress         progress([this](std::string_view, double fraction) {
     this->UpdateProgress(static_cast<float>(fraction));
     return !this->GetAbortGenerateData();
   });
   m_Report = {};
-  cbc3d::Mesh mesh = cbc3d::mesh_image(std::move(labelled), options, progress, m_Report);
+  if (m_Order == 2)
+  {
+    const cbc3d::QuadraticMesh mesh = cbc3d::mesh_image_quadratic(std::move(image), options, progress, m_Report);
+    this->Finish(cbc3d::corner_mesh(mesh), frame, warnings);
+    this->SetOutput(cbc3d::FileMesh(mesh, { .interfaces = false, .split = m_SplitInterfaces }));
+  }
+  else
+  {
+    const cbc3d::Mesh mesh = cbc3d::mesh_image(std::move(image), options, progress, m_Report);
+    this->Finish(mesh, frame, warnings);
+    this->SetOutput(cbc3d::FileMesh(mesh, { .interfaces = false, .split = m_SplitInterfaces }));
+  }
+}
+
+template <typename TInputImage, typename TOutputMesh>
+void
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::Finish(const cbc3d::Mesh &               mesh,
+                                                         const cbc3d::ImageFrame &         frame,
+                                                         const std::vector<std::string> & warnings)
+{
   if (mesh.cell_count() == 0)
   {
     throw cbc3d::JobError("the mesh is empty: no label is larger than the lattice; give a smaller lattice-spacing");
@@ -135,21 +219,32 @@ CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::MeshInput()
   {
     m_Report.warnings.push_back(std::move(finding));
   }
-  return mesh;
+  for (const std::string & warning : warnings)
+  {
+    m_Report.warnings.push_back(CBC3D::WithNames(warning));
+  }
 }
 
 template <typename TInputImage, typename TOutputMesh>
 void
-CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetPoints(const cbc3d::Mesh & mesh)
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetOutput(const cbc3d::FileMesh & mesh)
+{
+  this->SetPoints(mesh);
+  this->SetCells(mesh);
+}
+
+template <typename TInputImage, typename TOutputMesh>
+void
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetPoints(const cbc3d::FileMesh & mesh)
 {
   auto points = TOutputMesh::PointsContainer::New();
-  points->Reserve(mesh.points.size());
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  points->Reserve(mesh.points().size());
+  for (std::size_t v = 0; v < mesh.points().size(); ++v)
   {
     typename TOutputMesh::PointType point;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      point[axis] = static_cast<typename TOutputMesh::CoordRepType>(mesh.points[v][static_cast<int>(axis)]);
+      point[axis] = static_cast<typename TOutputMesh::CoordRepType>(mesh.points()[v][static_cast<int>(axis)]);
     }
     points->SetElement(v, point);
   }
@@ -158,13 +253,22 @@ CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetPoints(const cbc3d::Mesh & 
 
 template <typename TInputImage, typename TOutputMesh>
 void
-CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetCells(const cbc3d::Mesh & mesh)
+CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::SetCells(const cbc3d::FileMesh & mesh)
 {
   TOutputMesh & output = *this->GetOutput();
   output.SetCellsAllocationMethod(MeshEnums::MeshClassCellsAllocationMethod::CellsAllocatedDynamicallyCellByCell);
-  for (std::size_t c = 0; c < mesh.tets.size(); ++c)
+  m_QuadraticNodes.clear();
+  for (const cbc3d::FileCells & block : mesh.blocks())
   {
-    CBC3D::AddTetrahedron(output, mesh.tets.nodes[c], mesh.tets.labels[c]);
+    for (std::size_t c = 0; c < block.size(); ++c)
+    {
+      const auto nodes = block.nodes_of(c);
+      CBC3D::AddTetrahedron(output, nodes, block.labels[c]);
+      if (block.is_quadratic())
+      {
+        std::copy(nodes.begin(), nodes.end(), m_QuadraticNodes.emplace_back().begin());
+      }
+    }
   }
 }
 
@@ -174,9 +278,7 @@ CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::GenerateData()
 {
   try
   {
-    const cbc3d::Mesh mesh = this->MeshInput();
-    this->SetPoints(mesh);
-    this->SetCells(mesh);
+    this->MeshInput();
   }
   catch (const cbc3d::Cancelled &)
   {
@@ -184,7 +286,7 @@ CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::GenerateData()
   }
   catch (const cbc3d::InputError & error)
   {
-    itkExceptionMacro(<< error.what());
+    itkExceptionMacro(<< CBC3D::WithNames(error.what()));
   }
   catch (const cbc3d::JobError & error)
   {
@@ -198,6 +300,11 @@ CBC3DImageToMeshFilter<TInputImage, TOutputMesh>::PrintSelf(std::ostream & os, I
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "Preset: " << m_Preset << '\n' << indent << "NumberOfThreads: " << m_NumberOfThreads << '\n';
+  os << indent << "Order: " << m_Order << '\n' << indent << "SplitInterfaces: " << m_SplitInterfaces << '\n';
+  os << indent << "Labels: " << (m_Choice.labels.empty() ? "all" : cbc3d::labels_text(m_Choice.labels)) << '\n';
+  os << indent << "KeepRest: " << m_Choice.keep_rest << '\n';
+  os << indent << "Background: " << (m_Choice.background.empty() ? "0" : cbc3d::labels_text(m_Choice.background))
+     << '\n';
   for (const auto & [name, value] : m_Options)
   {
     os << indent << "Option " << name << ": " << cbc3d::value_text(value) << '\n';

@@ -1,5 +1,6 @@
 // Tetrahedra with labels in the image's physical space, for pixels of several types; options, progress,
 // abortion, errors.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -127,6 +128,82 @@ void check_options_and_errors() {
   check(refuses("size", "9=1"), "labels that the image lacks are refused");
 }
 
+std::map<int, int> cells_by_label(const itk::CBC3DMesh& mesh) {
+  std::map<int, int> cells;
+  for (auto it = mesh.GetCellData()->Begin(); it != mesh.GetCellData()->End(); ++it) ++cells[it.Value()];
+  return cells;
+}
+
+void check_choices() {
+  using ImageType = itk::Image<short, 3>;
+  auto filter = itk::CBC3DImageToMeshFilter<ImageType>::New();
+  filter->SetInput(two_balls<short>());
+  filter->SetPreset("paper");
+  filter->SetOption("iterations", "0");
+  const auto labels = [&filter] {
+    filter->Update();
+    std::vector<int> found;
+    for (const auto& [label, count] : cells_by_label(*filter->GetOutput())) found.push_back(label);
+    return found;
+  };
+  filter->SetLabels({100});
+  check(labels() == std::vector<int>{100}, "the chosen label alone is meshed");
+  filter->KeepRestOn();
+  check(labels() == std::vector<int>{100, 101}, "the rest is one label");
+  check(!filter->GetWarnings().empty() && filter->GetWarnings().back().find("101") != std::string::npos,
+        "the new label is named");
+  filter->KeepRestOff();
+  filter->SetLabels({});
+  filter->SetBackground({0, 3});
+  check(labels() == std::vector<int>{100}, "background may be several values");
+  filter->SetBackground({});
+  filter->SetLabels({9});
+  try {
+    filter->Update();
+    check(false, "labels that the image lacks are refused");
+  } catch (const itk::ExceptionObject& error) {
+    check(std::string(error.GetDescription()).find("no label 9, which Labels names") != std::string::npos,
+          "the filter's own names stand in messages");
+  }
+}
+
+void check_orders_and_split_interfaces() {
+  using ImageType = itk::Image<short, 3>;
+  auto filter = itk::CBC3DImageToMeshFilter<ImageType>::New();
+  filter->SetInput(two_balls<short>());
+  filter->SetPreset("paper");
+  filter->SetOption("iterations", "0");
+  filter->Update();
+  const itk::CBC3DMesh& mesh = *filter->GetOutput();
+  const auto points = mesh.GetNumberOfPoints();
+  const auto cells = cells_by_label(mesh);
+  check(filter->GetQuadraticNodes().empty(), "order 1 has no nodes on edges");
+  filter->SplitInterfacesOn();
+  filter->Update();
+  check(mesh.GetNumberOfPoints() > points && cells_by_label(mesh) == cells, "every label has its own points");
+  filter->SplitInterfacesOff();
+  filter->SetOrder(2);
+  filter->Update();
+  check(cells_by_label(mesh) == cells && mesh.GetNumberOfPoints() > points, "order 2 adds points alone");
+  const auto& nodes = filter->GetQuadraticNodes();
+  check(nodes.size() == mesh.GetNumberOfCells(), "every cell has ten nodes");
+  double farthest = 0, longest = 0;
+  for (const auto& ten : nodes) {
+    const auto a = mesh.GetPoint(ten[0]), b = mesh.GetPoint(ten[1]), middle = mesh.GetPoint(ten[4]);
+    for (unsigned int axis = 0; axis < 3; ++axis) {
+      farthest = std::max(farthest, std::abs(middle[axis] - (a[axis] + b[axis]) / 2));
+    }
+    longest = std::max(longest, a.EuclideanDistanceTo(b));
+  }
+  check(farthest < 0.3 * longest, "nodes 4 lie near the middle of the edges 01");
+  filter->SetOrder(3);
+  try {
+    filter->Update();
+    check(false, "other orders are refused");
+  } catch (const itk::ExceptionObject&) {
+  }
+}
+
 void check_progress_and_abortion() {
   using ImageType = itk::Image<unsigned char, 3>;
   auto filter = itk::CBC3DImageToMeshFilter<ImageType>::New();
@@ -153,6 +230,8 @@ int main() {
   check_mesh<long long>();
   check_warnings();
   check_options_and_errors();
+  check_choices();
+  check_orders_and_split_interfaces();
   check_progress_and_abortion();
   std::cout << failures << " checks failed\n";
   return failures == 0 ? 0 : 1;
