@@ -68,6 +68,65 @@ class Meshes(unittest.TestCase):
             with self.assertRaises(cbc3d.InputError):
                 cbc3d.read(folder + "/absent.vtu")
 
+    def test_every_format_is_written_and_has_names(self):
+        mesh = cbc3d.Mesh(self.mesh.points, self.mesh.tets, self.mesh.labels)
+        mesh.names[3] = "left ball"
+        mesh.colours = {8: (1, 2, 250)}
+        read = 0
+        with tempfile.TemporaryDirectory() as folder:
+            for name in cbc3d.mesh_format_names():
+                for extension in ("vtu", "vtk", "msh", "inp", "mesh", "feb", "xdmf"):
+                    path = f"{folder}/{name}.{extension}"
+                    try:
+                        mesh.write(path, format=name, coordinates="RAS")
+                    except cbc3d.InputError:
+                        continue
+                    if extension in ("feb", "xdmf"):
+                        with self.assertRaises(cbc3d.InputError):
+                            cbc3d.read(path)
+                        continue
+                    again = cbc3d.read(path)
+                    read += 1
+                    self.assertEqual((again.names, again.colours), ({3: "left ball"}, {8: (1, 2, 250)}), name)
+                    numpy.testing.assert_allclose(again.points, mesh.points, atol=1e-9)
+            self.assertEqual(read, 7)
+            mesh.write(folder + "/split.vtu", split_interfaces=True)
+            self.assertGreater(len(cbc3d.read(folder + "/split.vtu").points), len(mesh.points))
+            for arguments in ({"format": "gmsh41"}, {"coordinates": "voxel"}, {"format": "x"}):
+                with self.assertRaises(cbc3d.InputError):
+                    mesh.write(folder + "/n.vtu", **arguments)
+            self.assertFalse(pathlib.Path(folder + "/n.vtu").exists())
+        for names in ({"a": "b"}, {3: 5}):
+            mesh.names = names
+            with self.assertRaises(cbc3d.InputError):
+                mesh.write("n.vtu")
+        with self.assertRaises(cbc3d.InputError):
+            cbc3d.Mesh.read("absent.vtu", label_array="part")
+
+    def test_quadratic_tets(self):
+        mesh = cbc3d.mesh(two_balls(), SPACING, preset="paper", iterations=0, order=2, names={3: "left ball"})
+        self.assertEqual(mesh.tets.shape[1], 10)
+        linear = mesh.linear()
+        numpy.testing.assert_array_equal(linear.tets, mesh.tets[:, :4])
+        numpy.testing.assert_array_equal(linear.labels, mesh.labels)
+        self.assertEqual(linear.names, {3: "left ball"})
+        self.assertLess(mesh.corners, len(mesh.points))
+        self.assertLess(mesh.tets[:, :4].max(), mesh.corners)
+        edges = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+        for n, (a, b) in enumerate(edges):
+            ends = mesh.points[mesh.tets[:, [a, b]]]
+            moved = numpy.linalg.norm(mesh.points[mesh.tets[:, 4 + n]] - ends.mean(axis=1), axis=1)
+            self.assertTrue((moved <= 0.2001 * numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)).all())
+        with tempfile.TemporaryDirectory() as folder:
+            for extension in ("vtu", "vtk", "msh", "inp", "mesh", "feb", "xdmf"):
+                mesh.write(f"{folder}/m.{extension}")
+        if meshio is not None:
+            out = mesh.to_meshio()
+            self.assertEqual(out.cells[0].type, "tetra10")
+            self.assertTrue(numpy.shares_memory(out.points, mesh.points))
+        with self.assertRaises(cbc3d.InputError):
+            cbc3d.mesh(two_balls(), SPACING, order=3)
+
     def test_meshes_from_arrays(self):
         mesh = self.mixed
         again = cbc3d.Mesh(mesh.points, mesh.tets, mesh.labels, pyramids=mesh.pyramids, hexes=mesh.hexes)

@@ -18,6 +18,16 @@ class Options(unittest.TestCase):
             self.assertTrue(row["defaults"], row)
         self.assertEqual(cbc3d.preset_names()[0], "quality")
 
+    def test_choices_about_the_array_are_documented(self):
+        keywords = [row["keyword"] for row in cbc3d.input_rows()]
+        self.assertEqual(keywords, ["volume", "background", "labels", "keep_rest", "names", "many_labels"])
+        for function in (cbc3d.mesh, cbc3d.improve, cbc3d.evaluate):
+            self.assertLessEqual(set(keywords), set(inspect.signature(function).parameters))
+            for keyword in keywords:
+                self.assertIn(keyword, function.__doc__)
+        self.assertNotIn("--", cbc3d.mesh.__doc__)
+        self.assertIn("order      1: tets of four nodes", cbc3d.mesh.__doc__)
+
     def test_every_option_refuses_nonsense(self):
         for row in cbc3d.option_rows():
             for value in ("nonsense", object(), {1: "x"}):

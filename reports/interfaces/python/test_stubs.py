@@ -16,10 +16,17 @@ class Stubs(unittest.TestCase):
         self.assertEqual(set(cbc3d.__all__), set(named))
         options = {argument.arg for argument in named["mesh"].args.kwonlyargs}
         self.assertLessEqual({row["keyword"] for row in cbc3d.option_rows()}, options)
-        members = {node.name if isinstance(node, ast.FunctionDef) else node.target.id for node in named["Mesh"].body}
-        public = {name for name in vars(cbc3d.Mesh) if not name.startswith("_")}
-        self.assertLessEqual(public, members)
+        choices = {row["keyword"] for row in cbc3d.input_rows()}
+        for name in ("mesh", "improve", "evaluate"):
+            self.assertLessEqual(choices, {argument.arg for argument in named[name].args.kwonlyargs})
+        for name in ("Mesh", "QuadraticMesh"):
+            self.expect_members(named[name], getattr(cbc3d, name))
         self.assertTrue((path.parent / "py.typed").exists())
+
+    def expect_members(self, stub, kind):
+        members = {node.name if isinstance(node, ast.FunctionDef) else node.target.id for node in stub.body}
+        public = {name for name in vars(kind) if not name.startswith("_")}
+        self.assertLessEqual(public, members)
 
 
 if __name__ == "__main__":

@@ -55,6 +55,21 @@ class Work(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             cbc3d.mesh(two_balls(), SPACING, progress=interrupt)
         self.assertEqual(len(calls), 1)
+        # Within a step: the work is left behind before it has ended.
+        balls = numpy.zeros((100, 100, 100), "uint8")
+        k, j, i = numpy.mgrid[:100, :100, :100]
+        for label, x in ((1, 30), (2, 65)):
+            balls[(i - x) ** 2 + (j - 50) ** 2 + (k - 50) ** 2 < 28 ** 2] = label
+
+        def interrupt_later(stage, fraction):
+            if fraction > 0.4 and not interrupt_later.timers:
+                interrupt_later.timers.append(threading.Timer(0.05, lambda: os.kill(os.getpid(), signal.SIGINT)))
+                interrupt_later.timers[0].start()
+
+        interrupt_later.timers = []
+        with self.assertRaises(KeyboardInterrupt):
+            cbc3d.mesh(balls, threads=1, progress=interrupt_later)
+        self.assertEqual(cbc3d._core.works_left_behind(), 1)
         # Without a callback, from another thread, while the interpreter's lock is free.
         threading.Timer(0.05, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt):
@@ -89,6 +104,53 @@ class Work(unittest.TestCase):
         with warnings.catch_warnings(), self.assertRaises(cbc3d.JobError):
             warnings.simplefilter("ignore")
             cbc3d.mesh(array, preset="paper", lattice_spacing=20, finest_spacing=20)
+
+    def test_labels_are_chosen(self):
+        for choices, labels in (({"labels": 8}, {8}), ({"labels": [3]}, {3}), ({"labels": "3,8"}, {3, 8}),
+                                ({"labels": numpy.array([3]), "keep_rest": True}, {3, 9}), ({"background": (0, 3)}, {8})):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                mesh = cbc3d.mesh(two_balls(), SPACING, preset="paper", iterations=0, lattice_spacing=6, **choices)
+            self.assertEqual(set(mesh.labels.tolist()), labels, choices)
+        self.assertEqual(mesh.names, {})
+        for choices, text in (({"labels": 5}, "no label 5, which labels names"), ({"keep_rest": True}, "keep_rest without labels"),
+                              ({"labels": "a"}, "labels 'a'"), ({"volume": 0}, "has 3 axes"), ({"names": 5}, "names"),
+                              ({"names": {"a": "b"}}, "names")):
+            with self.assertRaises(cbc3d.InputError) as caught:
+                cbc3d.mesh(two_balls(), SPACING, **choices)
+            self.assertIn(text, str(caught.exception))
+        with self.assertRaises(cbc3d.InputError):
+            cbc3d.evaluate(mesh, two_balls(), SPACING, colour=1)
+
+    def test_volumes(self):
+        coarse = {"preset": "paper", "iterations": 0, "lattice_spacing": 6}
+        one = cbc3d.mesh(two_balls(), SPACING, **coarse)
+        times = numpy.stack([two_balls() * 0, two_balls()])
+        for array, axes in ((times, "kji"), (numpy.moveaxis(times, 0, -1).transpose(2, 1, 0, 3), "ijk")):
+            mesh = cbc3d.mesh(array, SPACING, volume=1, axes=axes, **coarse)
+            numpy.testing.assert_array_equal(mesh.points, one.points)
+            for volume in (2, -1, "one"):
+                with self.assertRaises(cbc3d.InputError) as caught:
+                    cbc3d.mesh(array, SPACING, volume=volume, axes=axes)
+                self.assertEqual(caught.exception.parameter, "volume")
+
+    def test_names(self):
+        array = two_balls()
+        array[2, 2, 2] = 5  # one voxel, which the preset "paper" drops
+        with self.assertWarnsRegex(cbc3d.MeshWarning, r"speck \(5\)"):
+            mesh = cbc3d.mesh(array, SPACING, preset="paper", names={3: "left ball", 5: "speck", 7: "of no voxel"})
+        self.assertEqual(mesh.names, {3: "left ball", 5: "speck"})
+        with tempfile.TemporaryDirectory() as folder:
+            table = folder + "/names.csv"
+            with open(table, "w") as file:
+                file.write("3,left ball,#c85008\n8,right ball\n")
+            mesh = cbc3d.mesh(two_balls(), SPACING, names=table)
+        self.assertEqual(mesh.names, {3: "left ball", 8: "right ball"})
+        self.assertEqual(mesh.colours, {3: (200, 80, 8)})
+        self.assertEqual(cbc3d.improve(mesh).names, mesh.names)
+        found = cbc3d.evaluate(mesh, two_balls(), SPACING, certified=False)
+        self.assertEqual(found["label_names"], {"3": "left ball", "8": "right ball"})
+        self.assertEqual({row["label"]: row["name"] for row in found["fidelity"]["per_label"]}, mesh.names)
 
     def test_improve(self):
         rough = cbc3d.mesh(two_balls(), SPACING, preset="paper")

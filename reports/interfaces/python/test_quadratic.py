@@ -1,0 +1,72 @@
+"""Tets of ten nodes: the session of ten lines, and a solve with quadratic elements that have a linear field exactly."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from testing_support import SPACING, needs, numpy, two_balls
+
+import cbc3d
+
+meshio, sparse, solvers = needs("meshio", "scipy.sparse", "scipy.sparse.linalg")
+SESSION = pathlib.Path(__file__).parent / "examples" / "session.py"
+EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+
+
+def quadratic_gradients():
+    """Of the ten shape functions at the four points of the rule of degree 2, in the coordinates of the reference tet."""
+    points = numpy.full((4, 4), 0.1381966011250105) + numpy.eye(4) * (0.5854101966249685 - 0.1381966011250105)
+    of_corners = numpy.vstack([[-1, -1, -1], numpy.eye(3)])
+    return numpy.array([[(4 * p[n] - 1) * of_corners[n] for n in range(4)]
+                        + [4 * (p[a] * of_corners[b] + p[b] * of_corners[a]) for a, b in EDGES] for p in points])
+
+
+def solve(mesh, values, fixed):
+    """Laplace's equation on the curved elements; nodes that are fixed have their values."""
+    nodes = mesh.cells[0].data.astype(numpy.int64)
+    reference = quadratic_gradients()
+    jacobians = numpy.einsum("cnd,qna->cqda", mesh.points[nodes], reference)
+    determinants = numpy.linalg.det(jacobians)
+    assert (determinants > 0).all()
+    gradients = numpy.einsum("qna,cqad->cqnd", reference, numpy.linalg.inv(jacobians))
+    stiffness = numpy.einsum("cqnd,cqmd,cq->cnm", gradients, gradients, determinants / 24)
+    rows, columns = numpy.repeat(nodes, 10, axis=1).ravel(), numpy.tile(nodes, (1, 10)).ravel()
+    matrix = sparse.coo_matrix((stiffness.ravel(), (rows, columns))).tocsr()
+    free = ~fixed
+    solution = values.copy()
+    solution[free] = solvers.spsolve(matrix[free][:, free], -matrix[free][:, fixed] @ values[fixed])
+    return solution, determinants.sum() / 24
+
+
+class Quadratic(unittest.TestCase):
+    def test_a_linear_field_is_exact(self):
+        mesh = cbc3d.mesh(two_balls(), SPACING, order=2).to_meshio()
+        nodes = mesh.cells[0].data
+        facets = numpy.array([[1, 2, 3, 5, 9, 8], [0, 2, 3, 6, 9, 7], [0, 1, 3, 4, 8, 7], [0, 1, 2, 4, 5, 6]])
+        facets = nodes[:, facets].reshape(-1, 6)
+        _, inverse, counts = numpy.unique(numpy.sort(facets[:, :3], axis=1), axis=0, return_inverse=True, return_counts=True)
+        fixed = numpy.zeros(len(mesh.points), bool)
+        fixed[facets[counts[inverse.ravel()] == 1]] = True
+        self.assertTrue(0 < fixed.sum() < len(fixed))
+        exact = mesh.points @ (1, -2, 3) + 4
+        solution, volume = solve(mesh, numpy.where(fixed, exact, 0), fixed)
+        self.assertLess(numpy.abs(solution - exact).max(), 1e-8 * numpy.abs(exact).max())
+        voxels = numpy.prod(SPACING) * (two_balls() > 0).sum()
+        self.assertLess(abs(volume / voxels - 1), 0.03)
+
+    def test_the_session_of_ten_lines(self):
+        needs("matplotlib")
+        lines = [line for line in SESSION.read_text().splitlines() if line.strip()]
+        self.assertLessEqual(len(lines), 10)
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, SESSION], check=True, cwd=folder, env={**os.environ, "MPLBACKEND": "Agg"})
+            read = meshio.read(folder + "/halves.vtu")
+            self.assertGreater((pathlib.Path(folder) / "halves.png").stat().st_size, 5000)
+        self.assertEqual(read.cells[0].type, "tetra10")
+        self.assertEqual(set(read.cell_data["label"][0].tolist()), {1, 2})
+
+
+if __name__ == "__main__":
+    unittest.main(warnings="ignore")
