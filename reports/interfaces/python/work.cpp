@@ -175,18 +175,18 @@ void require_no_more(const py::dict& keywords) {
   }
 }
 
-py::object improve_mesh(const py::object& given_mesh, const std::optional<py::tuple>& given,
+py::object improve_mesh(const std::shared_ptr<Mesh>& mesh, const std::optional<py::tuple>& given,
                         const py::object& min_dihedral, double max_deviation_mm, bool decimate, int threads,
                         py::dict keywords, const py::object& progress) {
   ImageInput input = take_choices(keywords);
   require_no_more(keywords);
-  ImproveWork work{.mesh = given_mesh.cast<std::shared_ptr<Mesh>>(),
+  ImproveWork work{.mesh = mesh,
                    .image = {},
                    .options = improve_options(min_dihedral, max_deviation_mm, decimate),
                    .threads = threads};
   set_thread_count(threads);
   if (given) work.image = read(placed(*given), input);
-  input.names.add_unknown(names_of(given_mesh));
+  input.names.add_unknown(names_of(py::cast(mesh)));
   const Improved improved = watched(progress, std::move(work));
   py::object result = py::cast(improved.mesh);
   set_names(result, input.names);
@@ -208,17 +208,18 @@ struct EvaluateWork {
 };
 
 /// The figures with names beside labels, as the command has them.
-std::string evaluate_mesh(const py::object& given_mesh, const py::tuple& given, bool smooth, bool certified,
-                          double tolerance_mm, int threads, py::dict keywords, const py::object& progress) {
+std::string evaluate_mesh(const std::shared_ptr<Mesh>& mesh, const py::tuple& given, bool smooth,
+                          bool certified, double tolerance_mm, int threads, py::dict keywords,
+                          const py::object& progress) {
   ImageInput input = take_choices(keywords);
   require_no_more(keywords);
   set_thread_count(threads);
   input.many_labels = true;
-  EvaluateWork work{.mesh = given_mesh.cast<std::shared_ptr<Mesh>>(),
+  EvaluateWork work{.mesh = mesh,
                     .image = read(placed(given), input),
                     .options = {.smooth = smooth, .certified = certified, .tolerance_mm = tolerance_mm},
                     .threads = threads};
-  input.names.add_unknown(names_of(given_mesh));
+  input.names.add_unknown(names_of(py::cast(mesh)));
   nlohmann::json found = nlohmann::json::parse(watched(progress, std::move(work)));
   found["label_names"] = names_json(input.names);
   cbc3d::add_names(found, input.names);
