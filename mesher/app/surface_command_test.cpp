@@ -56,10 +56,10 @@ TEST_F(SurfaceCommand, TakesItsPointsToOtherCoordinatesAndSaysSo) {
   image.frame.spacing_mm = {0.5, 2, 4};
   image.frame.origin_mm = {-1, 3, 5};
   image.frame.direction(2, 2) = -1;  // left-handed
-  write_label_image(image, at("ball.nii.gz"));
+  write_label_image(image, at("ball.nrrd"));
   Vec3 lps;
   for (const std::string coordinates : {"lps", "ras", "voxel"}) {
-    const std::string image_option = coordinates == "voxel" ? " --image " + at("ball.nii.gz") : "";
+    const std::string image_option = coordinates == "voxel" ? " --image " + at("ball.nrrd") : "";
     ASSERT_EQ(run("--coordinates " + coordinates + image_option + " -o " + at("s.obj")).exit_code, 0);
     const std::string text = testing::bytes_of(at("s.obj"));
     const std::string said = coordinates == "voxel" ? "voxel" : coordinates == "ras" ? "RAS" : "LPS";
