@@ -25,17 +25,17 @@ const Topology& topology_of(const FileCells& block) {
   return block.is_quadratic() ? kQuadraticTopology : kTopologies[static_cast<std::size_t>(block.kind)];
 }
 
-/// A text between quotes or tags.
-std::string in_xml(std::string_view text) {
-  std::string out;
+/// Readers refuse Information that they do not know, and pass over comments, in which there are no two
+/// hyphens in turn.
+void add_comment(TextFile& out, std::string_view text) {
+  out.add("<!-- ");
+  char last = ' ';
   for (const char c : text) {
-    out += c == '&'   ? "&amp;"
-           : c == '<' ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
+    if (c == '-' && last == '-') out.add(' ');
+    out.add(c);
+    last = c;
   }
-  return out;
+  out.add(" -->\n");
 }
 
 /// XDMF's wedge is VTK's.
@@ -97,13 +97,10 @@ void add_labels(TextFile& out, const FileMesh& mesh) {
 
 void write_xdmf(const FileMesh& mesh, const std::filesystem::path& path, const MeshFileOptions& options) {
   TextFile out(path);
-  out.add(
-      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"CBC3D\" "
-      "GridType=\"Uniform\">\n<Information Name=\"CBC3D\" Value=\"",
-      coordinates_statement(options), "\"/>\n");
-  for (const std::string& line : name_statements(options.names, mesh.labels())) {
-    out.add("<Information Name=\"CBC3D\" Value=\"", in_xml(line), "\"/>\n");
-  }
+  out.add("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n",
+          "<Grid Name=\"CBC3D\" GridType=\"Uniform\">\n");
+  add_comment(out, coordinates_statement(options));
+  for (const std::string& line : name_statements(options.names, mesh.labels())) add_comment(out, line);
   add_geometry(out, mesh);
   add_topology(out, mesh);
   add_labels(out, mesh);

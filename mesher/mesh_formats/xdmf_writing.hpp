@@ -10,7 +10,7 @@
 namespace cbc3d {
 
 /// Writes to exactly this path: cells with the attribute "label"; names, colours and coordinates as
-/// Information. Throws JobError when writing fails.
+/// comments. Throws JobError when writing fails.
 void write_xdmf(const FileMesh& mesh, const std::filesystem::path& path, const MeshFileOptions& options);
 
 }  // namespace cbc3d

@@ -19,18 +19,20 @@ class XdmfWriting : public ::testing::Test {
 TEST_F(XdmfWriting, StatesNamesAndCoordinates) {
   MeshFileOptions options;
   options.coordinates = "RAS";
-  options.names.set({.label = 3, .name = "a < \"b\" & c", .colour = {{200, 80, 8}}});
+  options.names.set({.label = 3, .name = "a < \"b\" --> c", .colour = {{200, 80, 8}}});
   write_xdmf(FileMesh(testing::one_of_each(), {}), file(), options);
   const std::string text = folder_.content("m.xdmf");
-  EXPECT_NE(text.find("Value=\"coordinates RAS, mm\""), std::string::npos) << text;
-  EXPECT_NE(text.find("Value=\"name 3 = a &lt; &quot;b&quot; &amp; c\""), std::string::npos) << text;
-  EXPECT_NE(text.find("Value=\"colour 3 = #c85008\""), std::string::npos) << text;
+  EXPECT_NE(text.find("<!-- coordinates RAS, mm -->"), std::string::npos) << text;
+  EXPECT_NE(text.find("<!-- name 3 = a < \"b\" - -> c -->"), std::string::npos) << text;
+  EXPECT_NE(text.find("<!-- colour 3 = #c85008 -->"), std::string::npos) << text;
 }
 
 TEST_F(XdmfWriting, MeshioReadsTheSameTets) {
   if (!testing::has_meshio()) GTEST_SKIP() << "python3-meshio is not installed";
   const Mesh mesh = testing::two_label_box(2);
-  write_xdmf(FileMesh(mesh, {}), file(), {});
+  MeshFileOptions options;
+  options.names.set({.label = 3, .name = "<heart> & --aorta", .colour = {{200, 80, 8}}});
+  write_xdmf(FileMesh(mesh, {}), file(), options);
   const nlohmann::json found = testing::reopened(file());
   EXPECT_EQ(found["points"], mesh.points.size());
   testing::expect_volumes(found, mesh);
