@@ -2,11 +2,16 @@
 
 points; cells by meshio's type; how far edge nodes of quadratic tets are from the middle at most; volume of the tets by label (of whatever array or set the format has); names of groups.
 """
+import importlib.util
 import json
 import sys
+import types
 
 import meshio
 import numpy as np
+
+if importlib.util.find_spec("h5py") is None:
+    sys.modules["h5py"] = types.ModuleType("h5py")  # meshio imports it for XDMF's text too, which does not need it
 
 mesh = meshio.read(sys.argv[1])
 kinds = {}
