@@ -66,7 +66,7 @@ def mesh(volume, options, stages):
 def versions():
     import gmsh
 
-    return {"gmsh": gmsh.option.getString("General.Version") if gmsh.isInitialized() else gmsh.__version__}
+    return {"gmsh": gmsh.option.getString("General.Version")}
 
 
 def algorithm(text):

@@ -5,7 +5,7 @@ import peer
 import surface_net
 
 
-def front_of(net, materials):
+def front_of(net):
     """Netgen's mesh of surfaces alone; its domains are the materials."""
     from netgen import meshing
 
@@ -15,14 +15,11 @@ def front_of(net, materials):
     sides = net.materials[net.sides]
     faces = {}
     for triangle, (behind, ahead) in zip(net.triangles.tolist(), sides.tolist()):
-        if behind == ahead:
-            continue  # between regions of one material that touch at corners alone there is none
         if (behind, ahead) not in faces:
             number = len(faces) + 1
             faces[behind, ahead] = front.Add(
                 meshing.FaceDescriptor(surfnr=number, domin=behind, domout=ahead, bc=number))
         front.Add(meshing.Element2D(faces[behind, ahead], [points[corner] for corner in triangle]))
-    del materials
     return front
 
 
@@ -32,7 +29,7 @@ def mesh(volume, options, stages):
     net = surface_net.surface_net(volume, options.size)
     stages.end("surface")
     meshing.SetMessageImportance(0)
-    front = front_of(net, volume.values)
+    front = front_of(net)
     front.GenerateVolumeMesh(mp=meshing.MeshingParameters(
         maxh=options.growth * options.size, grading=options.grading, optsteps3d=options.steps))
     stages.end("volume")

@@ -4,6 +4,7 @@ An adapter calls run(NAME, MODULES, PARAMETERS, MESH). Index mm are voxel indice
 meshes are written in physical mm, LPS.
 """
 import argparse
+import contextlib
 import importlib.util
 import json
 import os
@@ -127,6 +128,24 @@ def require_programs(programs):
             raise BadInput(f"the program {program} is nowhere in PATH; {remedy}")
 
 
+@contextlib.contextmanager
+def silenced():
+    """Whatever a library writes to the terminal meanwhile, also from C++, goes nowhere."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = [os.dup(1), os.dup(2)]
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 1)
+        os.dup2(nowhere, 2)
+        yield
+    finally:
+        for number, copy in zip((1, 2), kept):
+            os.dup2(copy, number)
+            os.close(copy)
+        os.close(nowhere)
+
+
 def positive(text):
     value = float(text)
     if not 0 < value < float("inf"):
@@ -148,13 +167,16 @@ def parse(name, parameters):
     return options
 
 
-def run(name, parameters, mesh, modules=None, programs=None, versions=None):
-    """The main of an adapter. `mesh(volume, options, stages)` gives a TetMesh, whose time counts."""
+def run(name, parameters, mesh, modules=None, programs=None, check=None, versions=None):
+    """The main of an adapter. `mesh(volume, options, stages)` gives a TetMesh, whose time counts; `check()` throws BadInput where
+    something else is absent."""
     options = parse(name, parameters)
     report, code = {"status": "failed", "reason": ""}, EXIT_FAILED
     try:
         require_modules(modules or {})
         require_programs(programs or {})
+        if check:
+            check()
         if options.probe:
             sys.exit(EXIT_SUCCESS)
         report.update(work(options, mesh), versions=versions() if versions else {})
@@ -177,7 +199,8 @@ def run(name, parameters, mesh, modules=None, programs=None, versions=None):
 def work(options, mesh):
     volume = read_volume(options.image)
     stages = Stages()
-    made = mesh(volume, options, stages)
+    with silenced():
+        made = mesh(volume, options, stages)
     seconds = stages.as_json()
     if len(made.tets) == 0:
         raise Failed("made no tetrahedron")
