@@ -2,8 +2,10 @@
 
 A surface net (Gibson, MICCAI 1998) on a grid of a chosen size: labels are told apart by their masks, blurred by a Gaussian of 0.4
 grid edges; a grid cell that sees more than one region has one vertex, the mean of the places where its edges change label; four
-cells around such an edge have a quadrilateral. It conforms: where three labels meet they share edges and vertices. Vertices stay
-within 0.45 of their cell's edges from its centre, so that no two of them meet. Labels thinner than about a grid edge are lost.
+cells around such an edge have a quadrilateral. It conforms: where three labels meet they share edges and vertices. Means lie inside what
+is curved, and so do flat triangles: each vertex then goes as far away from the mean of its neighbours as it is from it, which gives
+back most of the volume. Vertices stay within 0.45 of their cell's edges from its centre, so that no two of them meet. Labels thinner
+than about a grid edge are lost.
 """
 from dataclasses import dataclass
 
@@ -112,10 +114,22 @@ def surface_net(volume, size_mm):
     if len(cells) == 0:
         return Net(numpy.zeros((0, 3)), numpy.zeros((0, 3), int), numpy.zeros((0, 2), int), materials)
     centres = numpy.stack(numpy.unravel_index(cells, shape), axis=1) + 0.5
-    points = numpy.clip(sums[cells] / counts[cells, None], centres - REACH, centres + REACH) * edges + origin
     quads = numpy.searchsorted(cells, numpy.concatenate(quads))
     sides = numpy.concatenate(sides)
+    means = sums[cells] / counts[cells, None]
+    grown = 2 * means - means_of_neighbours(means, quads)
+    points = numpy.clip(grown, centres - REACH, centres + REACH) * edges + origin
     return Net(points, halve(points, quads), numpy.repeat(sides, 2, axis=0), materials)
+
+
+def means_of_neighbours(points, quads):
+    sides = numpy.concatenate([quads[:, [0, 1]], quads[:, [1, 2]], quads[:, [2, 3]], quads[:, [3, 0]]])
+    pairs = numpy.unique(numpy.sort(sides, axis=1), axis=0)
+    sums, counts = numpy.zeros_like(points), numpy.zeros(len(points))
+    for here, there in (pairs.T, pairs.T[::-1]):
+        numpy.add.at(sums, here, points[there])
+        numpy.add.at(counts, here, 1)
+    return sums / counts[:, None]
 
 
 def halve(points, quads):
