@@ -3,9 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "mesher/core/error.hpp"
@@ -173,6 +177,49 @@ Availability availability_of(const std::string& program, const fs::path& file) {
   return {true, ""};
 }
 
+/// An argument list as a command of the shell, which takes each as it is.
+std::string shell_command(const Texts& arguments) {
+  std::string command;
+  for (const std::string& argument : arguments) {
+    command += command.empty() ? "'" : " '";
+    for (const char c : argument) command += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    command += "'";
+  }
+  return command;
+}
+
+/// The first line, at most so long, of what `stream` still has, without control characters. All of it is
+/// read, for a program whose output nobody takes would end with a signal.
+std::string first_line(std::FILE* stream) {
+  constexpr std::size_t kLongest = 300;
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), stream))
+    text.append(buffer.data(), std::min(size, kLongest));
+  text = text.substr(0, std::min(text.find('\n'), kLongest));
+  std::erase_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  return text;
+}
+
+/// What the probe says: success is available, else its first line is the reason.
+Availability ask_probe(const Texts& probe, const fs::path& file) {
+  const std::string name = "the probe '" + probe[0] + "' of '" + file.filename().string() + "'";
+  std::FILE* pipe = ::popen((shell_command(probe) + " 2>&1 </dev/null").c_str(), "r");
+  if (pipe == nullptr) return {false, name + " cannot be started; correct \"probe\""};
+  const std::string reason = first_line(pipe);
+  if (::pclose(pipe) == 0) return {true, ""};
+  return {false, reason.empty() ? name + " failed and gave no reason; run it" : reason};
+}
+
+/// The answer of a probe does not change during a run, and is asked for when it is first needed.
+std::function<Availability()> remembered_probe(const Texts& probe, const fs::path& file) {
+  if (probe.empty()) return [] { return Availability{true, ""}; };
+  return [probe, file, known = std::make_shared<std::optional<Availability>>()] {
+    if (!*known) *known = ask_probe(probe, file);
+    return known->value();
+  };
+}
+
 Texts command_of(const Texts& command, const ParameterSpecs& specs, const MeshJob& job) {
   std::map<std::string, std::string> values{{"image", job.image.string()},
                                             {"mesh", job.mesh.string()},
@@ -199,18 +246,36 @@ std::string checked_extension(const Description& description) {
   return "." + format;
 }
 
+/// The format in which the mesher takes images; empty: in that of the case.
+std::string checked_image_extension(const Description& description) {
+  if (!description.content.contains("image")) return "";
+  const std::string format = description.text(description.content, "image", "nii, nii.gz, nrrd or mha");
+  if (format != "nii" && format != "nii.gz" && format != "nrrd" && format != "mha")
+    description.fail("image", "is \"" + format + "\"; give nii, nii.gz, nrrd or mha");
+  return "." + format;
+}
+
+/// A command under `key`, its program found; empty where there is none.
+Texts optional_command(const Description& description, const std::string& key, const fs::path& folder) {
+  if (!description.content.contains(key)) return {};
+  Texts command = description.texts(key);
+  command[0] = resolve_program(command[0], folder);
+  return command;
+}
+
 }  // namespace
 
 Adapter load_external_mesher(const fs::path& file) {
   const Description description = read_description(file);
-  description.require_known(description.content,
-                            {"name", "description", "licence", "command", "output", "version_command",
-                             "multithreaded", "openmp", "deterministic", "parameters", "size_dial"});
+  description.require_known(description.content, {"name", "description", "licence", "command", "image",
+                                                  "output", "probe", "version_command", "multithreaded",
+                                                  "openmp", "deterministic", "parameters", "size_dial"});
   Adapter adapter;
   adapter.name = checked_name(description);
   adapter.description = description.text(description.content, "description", "one line");
   adapter.licence = description.text(description.content, "licence", "an SPDX expression, \"MIT\" for one");
   adapter.mesh_extension = checked_extension(description);
+  adapter.image_extension = checked_image_extension(description);
   adapter.multithreaded = description.flag("multithreaded", false);
   adapter.openmp = description.flag("openmp", false);
   adapter.deterministic = description.flag("deterministic", true);
@@ -224,12 +289,11 @@ Adapter load_external_mesher(const fs::path& file) {
   check_placeholders(description, command, specs);
   const fs::path folder = fs::absolute(file).parent_path();
   command[0] = resolve_program(command[0], folder);
-  if (description.content.contains("version_command")) {
-    adapter.version_command = description.texts("version_command");
-    adapter.version_command[0] = resolve_program(adapter.version_command[0], folder);
-  }
-  adapter.availability = [program = command[0], file](const fs::path&) {
-    return availability_of(program, file);
+  adapter.version_command = optional_command(description, "version_command", folder);
+  const Texts probe = optional_command(description, "probe", folder);
+  adapter.availability = [program = command[0], file, ask = remembered_probe(probe, file)](const fs::path&) {
+    const Availability found = availability_of(program, file);
+    return found.available ? ask() : found;
   };
   adapter.command = [command, name = adapter.name, specs](const fs::path&, const MeshJob& job) {
     require_known_parameters(name, specs, job.parameters);

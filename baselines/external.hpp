@@ -5,7 +5,13 @@
 //  "description": "what it is",                         one line
 //  "licence": "MIT",                                    SPDX expression
 //  "command": ["mytool", "{image}", "{mesh}", "-j", "{threads}", "--size={size}"],
+//  "image": "nii.gz",                                   optional: nii, nii.gz, nrrd or mha, in which {image}
+//  then is;
+//                                                       default: as the case has it
 //  "output": "vtu",                                     vtu, vtk or msh, with an integer cell array `label`
+//  "probe": ["./here.py", "mytool"],                    optional; ends with success where the mesher can run,
+//  else
+//                                                       its first line says why it cannot
 //  "version_command": ["mytool", "--version"],          optional; its first line goes into the provenance
 //  "multithreaded": true, "deterministic": true,        optional; default: false, true
 //  "parameters": [{"key": "size", "default": "2", "unit": "mm", "description": "element size"}],    optional

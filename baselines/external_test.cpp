@@ -67,6 +67,37 @@ TEST_F(External, AMissingOrForbiddenProgramIsSaidWithItsRemedy) {
             std::string::npos);
 }
 
+TEST_F(External, AProbeSaysWhetherTheMesherCanRun) {
+  good_["command"][0] = "/bin/true";
+  const auto asked = [this](const std::string& script, const std::string& argument) {
+    good_["probe"] = {"/bin/sh", "-c", script, "sh", argument};
+    return load_external_mesher(write(good_.dump())).availability("");
+  };
+  EXPECT_TRUE(asked("echo whatever; exit 0", "").available);
+  const Availability absent = asked(R"(printf '%s is \033[31mnot here\nmore\n' "$1"; exit 3)", "it's $x");
+  EXPECT_FALSE(absent.available);
+  EXPECT_EQ(absent.reason, "it's $x is [31mnot here") << "the first line, without control characters";
+  EXPECT_EQ(asked("echo said >&2; exit 1", "").reason, "said");
+  EXPECT_NE(asked("exit 1", "").reason.find("gave no reason"), std::string::npos);
+  EXPECT_LE(asked("head -c 100000 /dev/zero | tr '\\0' x; exit 1", "").reason.size(), 300U);
+}
+
+TEST_F(External, AProbeIsAskedOnce) {
+  good_["command"][0] = "/bin/true";
+  good_["probe"] = {"/bin/sh", "-c", "echo asked >> \"$1\"", "sh", (folder_ / "log").string()};
+  const Adapter adapter = load_external_mesher(write(good_.dump()));
+  EXPECT_FALSE(fs::exists(folder_ / "log"));
+  EXPECT_TRUE(adapter.availability("").available);
+  EXPECT_TRUE(adapter.availability("").available);
+  EXPECT_EQ(fs::file_size(folder_ / "log"), std::string("asked\n").size());
+}
+
+TEST_F(External, AnImageFormatMayBeAskedFor) {
+  EXPECT_EQ(load_external_mesher(write(good_.dump())).image_extension, "");
+  good_["image"] = "nii.gz";
+  EXPECT_EQ(load_external_mesher(write(good_.dump())).image_extension, ".nii.gz");
+}
+
 TEST_F(External, ASizeDialIsReadAndChecked) {
   EXPECT_FALSE(size_dial_of(load_external_mesher(write(good_.dump())), ""));
   good_["size_dial"] = {
@@ -104,6 +135,8 @@ TEST_F(External, BadFilesAreRefusedByKey) {
       {{{"name", std::string(300, 'x')}}, "1 to 80"},
       {{{"colour", "red"}}, "\"colour\" is not a key"},
       {{{"output", "stl"}}, "give vtu, vtk or msh"},
+      {{{"image", "dicom"}}, "give nii, nii.gz, nrrd or mha"},
+      {{{"probe", "true"}}, "\"probe\" is \"true\"; give a list of texts"},
       {{{"command", "tool {image} {mesh}"}}, "give a list of texts"},
       {{{"command", {"tool", "{image}", "{size}"}}}, "lacks {mesh}"},
       {{{"command", {"tool", "{image}", "{mesh}", "{size}", "{colour}"}}}, "names {colour}"},

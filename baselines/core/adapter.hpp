@@ -78,6 +78,7 @@ struct Adapter {
   std::function<std::optional<SizeDial>(const std::filesystem::path& bin_dir)> size_dial{};
   /// Parameters of the mesher for any image, by the name of their set.
   std::map<std::string, std::map<std::string, std::string>> parameter_sets{};
+  std::string image_extension{};               ///< in which it takes images; empty: in that of the case
   std::string mesh_extension = ".vtu";         ///< of the mesh file that the command writes
   std::vector<std::string> version_command{};  ///< prints the version; empty: the report has it
 };

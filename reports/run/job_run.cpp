@@ -9,6 +9,7 @@
 #include "cases/core/sha256.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/image_io.hpp"
 #include "mesher/core/json_text.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "reports/run/child_process.hpp"
@@ -344,6 +345,21 @@ std::vector<std::string> nameless_command(const Job& job, const fs::path& bin_di
   return job.mesher->command(bin_dir, {"IMAGE", "MESH", "REPORT", job.threads, parameters});
 }
 
+/// The image in the format that the mesher asks for: the case's own file, or a copy, kept for other jobs.
+fs::path image_for(const baselines::Adapter& mesher, const fs::path& image, const std::string& sha256,
+                   const fs::path& out_dir) {
+  const std::string& extension = mesher.image_extension;
+  if (extension.empty() || image.string().ends_with(extension)) {
+    return image;
+  }
+  const fs::path copy = out_dir / "images" / (sha256 + extension);
+  if (!fs::is_regular_file(copy)) {
+    fs::create_directories(copy.parent_path());
+    write_label_image(read_label_image(image), copy);
+  }
+  return copy;
+}
+
 /// What the searches of several budgets have in common, and so their tries.
 std::string common_key(const Job& job, const fs::path& bin_dir) {
   const std::vector<std::string> argv = nameless_command(job, bin_dir, job.parameters);
@@ -529,8 +545,10 @@ void JobRunner::run_children(const Job& job, const fs::path& image, Json& result
   files.remove_all();
   const Children children(bench_, options_, job, files);
   const double reference_before_s = reference_cpu_seconds(job.threads);
-  const bool meshed = job.budget ? mesh_to_budget(job, *job.budget, image, result)
-                                 : children.mesh(image, job.parameters, result);
+  const fs::path given =
+      image_for(*job.mesher, image, result["provenance"]["image_sha256"], options_.out_dir);
+  const bool meshed = job.budget ? mesh_to_budget(job, *job.budget, given, result)
+                                 : children.mesh(given, job.parameters, result);
   result["time_s"]["reference_cpu"] = std::min(reference_before_s, reference_cpu_seconds(job.threads));
   if (!meshed) {
     return;

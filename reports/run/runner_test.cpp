@@ -49,6 +49,27 @@ class Runner : public ::testing::Test {
   TerminalProgress progress_{true};
 };
 
+TEST_F(Runner, AMesherGetsTheImageInTheFormatThatItAsksFor) {
+  baselines::Adapter mesher = fake_mesher("mesh");
+  const std::string log = folder_.path() / "image";
+  mesher.image_extension = ".nii.gz";
+  mesher.command = [log](const std::filesystem::path&, const baselines::MeshJob& job) {
+    return std::vector<std::string>{"/bin/sh",  "-c",      R"(cp "$1" "$2".nii.gz; exec "$3" mesh "$4" "$5")",
+                                    "sh",       job.image, log,
+                                    TEST_CHILD, job.mesh,  job.report};
+  };
+  bench_.meshers = {mesher};
+  options_.repeats = 2;
+  for (const Json& line : run_jobs(bench_, options_, progress_)) {
+    EXPECT_EQ(line["status"], "ok") << line["reason"];
+    EXPECT_EQ(line["provenance"]["image_file"], image_.string()) << "the judge has the case's own";
+  }
+  const LabelImage given = read_label_image(log + ".nii.gz");
+  const LabelImage own = read_label_image(image_);
+  EXPECT_EQ(given.voxels, own.voxels);
+  EXPECT_EQ(given.frame.size, own.frame.size);
+}
+
 TEST_F(Runner, EveryKindOfEndIsALineAndTheRunGoesOn) {
   options_.timeout_s = 0.3;
   run({"sleep"});
