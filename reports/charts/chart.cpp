@@ -141,6 +141,24 @@ std::string axes(const Chart& chart, const Scale& scale) {
          text((kLeft + kWidth - kRight) / 2, kPlotBottom + (tilt ? 62 : 38), chart.x_title, "middle", 14);
 }
 
+/// What belongs to a series, for the page's script that hides it: its marks, or its entry in the legend.
+std::string group(const char* kind, std::size_t series, const std::string& content) {
+  return "<g" + attributes({{"class", kind}, {"data-series", std::to_string(series)}}) + ">\n" + content +
+         "</g>\n";
+}
+
+/// Nothing to be seen, but all of it can be clicked on.
+std::string key_area(double x, double y, double width) {
+  return "<rect" +
+         attributes({{"x", number(x - 4)},
+                     {"y", number(y - 14)},
+                     {"width", number(width - 4)},
+                     {"height", number(kLegendLine)},
+                     {"fill", "none"},
+                     {"pointer-events", "all"}}) +
+         "/>\n";
+}
+
 /// Names of the series in rows beneath the plot, each after its sample(number, x, y), and the note. `height`
 /// grows by what they need.
 template <class Sample>
@@ -154,8 +172,9 @@ std::string legend(const Chart& chart, double& height, const Sample& sample) {
       x = kLeft;
       y += kLegendLine;
     }
-    svg += sample(s, x, y - 4);
-    svg += text(x + 23, y, chart.series[s].name, "start", 13);
+    svg += group(
+        "key", s,
+        key_area(x, y, width) + sample(s, x, y - 4) + text(x + 23, y, chart.series[s].name, "start", 13));
     x += width;
   }
   if (!chart.note.empty()) {
@@ -164,6 +183,22 @@ std::string legend(const Chart& chart, double& height, const Sample& sample) {
   }
   height = std::max(height, y + 14);
   return svg;
+}
+
+/// What a mark says of itself: on the first line whose it is, then its figures.
+std::string tip_title(std::initializer_list<std::string> lines) {
+  std::string title;
+  for (const std::string& one : lines) {
+    title += (title.empty() ? "" : "&#10;") + markup_text(one);
+  }
+  return "<title>" + title + "</title>";
+}
+
+std::string category_tip(const Chart& chart, const Series& series, std::size_t category) {
+  const bool has_error = category < series.errors.size() && series.errors[category] > 0;
+  return tip_title({series.name + ", " + chart.categories[category],
+                    (chart.y_title.empty() ? "" : chart.y_title + ": ") + tick_text(series.values[category]) +
+                        (has_error ? " ± " + tick_text(series.errors[category]) : "")});
 }
 
 std::string error_bar(double x, double low, double high) {
@@ -186,23 +221,24 @@ std::string bars(const Chart& chart, const Scale& scale) {
   std::string svg;
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
+    std::string marks;
     for (std::size_t c = 0; c < series.values.size(); ++c) {
       if (!std::isfinite(series.values[c])) {
         continue;
       }
       const double x = slot_centre(chart, c) + width * (static_cast<double>(s) - count / 2);
       const double top = scale.y(series.values[c]);
-      svg += "<rect" +
-             attributes({{"x", number(x)},
-                         {"y", number(top)},
-                         {"width", number(width)},
-                         {"height", number(std::max(0.0, kPlotBottom - top))},
-                         {"fill", kColours[s % kColours.size()]}}) +
-             "><title>" +
-             markup_text(series.name + ", " + chart.categories[c] + ": " + tick_text(series.values[c])) +
-             "</title></rect>\n";
-      svg += error_bar_of(series, c, x + width / 2, scale);
+      marks += "<rect" +
+               attributes({{"class", "mark"},
+                           {"x", number(x)},
+                           {"y", number(top)},
+                           {"width", number(width)},
+                           {"height", number(std::max(0.0, kPlotBottom - top))},
+                           {"fill", kColours[s % kColours.size()]}}) +
+               ">" + category_tip(chart, series, c) + "</rect>\n";
+      marks += error_bar_of(series, c, x + width / 2, scale);
     }
+    svg += group("series", s, marks);
   }
   return svg;
 }
@@ -212,7 +248,7 @@ std::string points(const Chart& chart, const Scale& scale) {
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
     const std::string colour = kColours[s % kColours.size()];
-    std::string path;
+    std::string path, marks;
     for (std::size_t c = 0; c < series.values.size(); ++c) {
       if (!std::isfinite(series.values[c])) {
         continue;
@@ -221,19 +257,23 @@ std::string points(const Chart& chart, const Scale& scale) {
       const double y = scale.y(series.values[c]);
       path += (path.empty() ? "M" : "L") + number(x) + " " + number(y);
       if (!series.dashed) {
-        svg += error_bar_of(series, c, x, scale);
-        svg += "<circle" + attributes({{"cx", number(x)}, {"cy", number(y)}, {"r", "4"}, {"fill", colour}}) +
-               "><title>" +
-               markup_text(series.name + ", " + chart.categories[c] + ": " + tick_text(series.values[c])) +
-               "</title></circle>\n";
+        marks += error_bar_of(series, c, x, scale);
+        marks += "<circle" +
+                 attributes({{"class", "mark point"},
+                             {"cx", number(x)},
+                             {"cy", number(y)},
+                             {"r", "4"},
+                             {"fill", colour}}) +
+                 ">" + category_tip(chart, series, c) + "</circle>\n";
       }
     }
-    svg += "<path" +
-           attributes({{"d", path.empty() ? "M0 0" : path},
-                       {"fill", "none"},
-                       {"stroke", colour},
-                       {"stroke-width", "2"}}) +
-           (series.dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
+    marks += "<path" +
+             attributes({{"d", path.empty() ? "M0 0" : path},
+                         {"fill", "none"},
+                         {"stroke", colour},
+                         {"stroke-width", "2"}}) +
+             (series.dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
+    svg += group("series", s, marks);
   }
   return svg;
 }
@@ -342,26 +382,26 @@ std::string plane_axes(const Scatter& scatter, const Plane& plane) {
          text((kLeft + kWidth - kRight) / 2, kPlotBottom + 40, scatter.x_title, "middle", 14);
 }
 
-/// A point of the `series`-th colour and shape, with what it is as its tip.
-std::string point_mark(std::size_t series, double x, double y, const std::string& tip) {
+/// A point of the `series`-th colour and shape; `title`: what it says of itself, or nothing.
+std::string point_mark(std::size_t series, double x, double y, const std::string& title) {
   static const std::array<std::vector<std::pair<double, double>>, 4> kShapes{
       std::vector<std::pair<double, double>>{},     // a circle
       {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}},         // a square
       {{0, -7}, {6.5, 5}, {-6.5, 5}},               // a triangle
       {{0, -7.5}, {7.5, 0}, {0, 7.5}, {-7.5, 0}}};  // a diamond
   const std::string look =
-      attributes({{"fill", kColours[series % kColours.size()]}, {"stroke", "#fff"}, {"stroke-width", "1"}});
+      attributes({{"fill", kColours[series % kColours.size()]}, {"stroke", "#fff"}, {"stroke-width", "1"}}) +
+      (title.empty() ? "" : " class=\"mark point\"");
   const auto& shape = kShapes[series % kShapes.size()];
-  const std::string title = "><title>" + markup_text(tip) + "</title></";
   if (shape.empty()) {
-    return "<circle" + attributes({{"cx", number(x)}, {"cy", number(y)}, {"r", "6"}}) + look + title +
-           "circle>\n";
+    return "<circle" + attributes({{"cx", number(x)}, {"cy", number(y)}, {"r", "6"}}) + look + ">" + title +
+           "</circle>\n";
   }
   std::string corners;
   for (const auto& [dx, dy] : shape) {
     corners += (corners.empty() ? "" : " ") + number(x + dx) + "," + number(y + dy);
   }
-  return "<polygon" + attributes({{"points", corners}}) + look + title + "polygon>\n";
+  return "<polygon" + attributes({{"points", corners}}) + look + ">" + title + "</polygon>\n";
 }
 
 /// A line through all points of a series.
@@ -377,6 +417,20 @@ std::string joining_line(std::size_t series, const PointSeries& points, const Pl
                                         {"stroke", kColours[series % kColours.size()]},
                                         {"stroke-width", "1.5"}}) +
                             "/>\n";
+}
+
+/// The marks of a series, each with its job and both figures as its tip.
+std::string points_of(const Scatter& scatter, std::size_t number, const Plane& plane) {
+  const PointSeries& series = scatter.series[number];
+  std::string svg = scatter.joined ? joining_line(number, series, plane) : "";
+  for (std::size_t n = 0; n < series.points.size(); ++n) {
+    const auto& [x, y] = series.points[n];
+    const std::string owner = n < series.jobs.size() ? series.jobs[n] : series.name;
+    svg += point_mark(number, plane.x(x), plane.y(y),
+                      tip_title({owner, scatter.x_title + ": " + plane_tick_text(x),
+                                 scatter.y_title + ": " + plane_tick_text(y)}));
+  }
+  return svg;
 }
 
 /// The axes that hold all points. At least one point there is.
@@ -443,15 +497,11 @@ std::string scatter_chart(const Scatter& scatter) {
   for (std::size_t s = 0; s < scatter.series.size(); ++s) {
     const PointSeries& series = scatter.series[s];
     names.series.push_back({series.name, {}, {}, false});
-    inner += scatter.joined ? joining_line(s, series, plane) : "";
-    for (const auto& [x, y] : series.points) {
-      inner += point_mark(s, plane.x(x), plane.y(y), series.name + ": " + tick_text(x) + ", " + tick_text(y));
-    }
+    inner += group("series", s, points_of(scatter, s, plane));
   }
   double height = kHeight;
-  const std::string below = legend(names, height, [&](std::size_t s, double x, double y) {
-    return point_mark(s, x + 12, y, scatter.series[s].name);
-  });
+  const std::string below =
+      legend(names, height, [&](std::size_t s, double x, double y) { return point_mark(s, x + 12, y, ""); });
   return document(scatter.title, height, inner, below);
 }
 

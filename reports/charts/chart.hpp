@@ -1,4 +1,7 @@
-// Charts as SVG: bars in groups, lines with error bars, and points in a plane.
+// Charts as SVG: bars in groups, lines with error bars, and points in a plane. For the page's script
+// (reports/viewer/page/live_plots.js) marks are of the class `mark`, single points of `point` too, within a
+// group `series`; each entry of the legend is a group `key` with the same data-series. A mark's <title> says
+// whose it is and its figures.
 #pragma once
 
 #include <optional>
@@ -45,6 +48,7 @@ std::string line_chart(const Chart& chart);
 struct PointSeries {
   std::string name;
   std::vector<std::pair<double, double>> points;
+  std::vector<std::string> jobs = {};  ///< whose each point is, for its tip; where there is none, the name
 };
 
 /// Points in the plane of two figures.

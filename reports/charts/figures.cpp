@@ -99,6 +99,12 @@ std::string name_with_missing(const std::string& column, const Runs& runs) {
                      : column;
 }
 
+/// Whose a point is: "liver, cgal", and of how many runs it is the median.
+std::string job_of(const std::string& case_name, const std::string& column, const Runs& runs) {
+  return case_name + ", " + name_with_missing(column, runs) +
+         (runs.size() > 1 ? ", median of " + std::to_string(runs.size()) + " runs" : "");
+}
+
 /// An axis of a plane: a metric, times a factor.
 struct Axis {
   MetricId id;
@@ -124,7 +130,8 @@ Scatter trade_off(const std::string& case_name, const Columns& columns, const Ax
     const double x = median_or_none(runs, kDistance);
     const double y = y_axis.factor * median_or_none(runs, y_axis.id);
     if (x > 0 && (y > 0 || (!logarithmic_y && y == 0))) {
-      scatter.series.push_back({name_with_missing(column, runs), {{x, y}}});
+      scatter.series.push_back(
+          {name_with_missing(column, runs), {{x, y}}, {job_of(case_name, column, runs)}});
     }
   }
   return scatter;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reports/charts/chart.hpp"
+#include "reports/results/format_number.hpp"
 #include "reports/results/front.hpp"
 
 namespace cbc3d::reports {
@@ -60,8 +61,13 @@ Scatter front_of(const std::vector<JobResult>& results, const Columns& columns, 
   scatter.x_title = axis.title;
   scatter.y_title = title(metric);
   for (const std::string& column : columns.names()) {
-    PointSeries series{column,
-                       front_points(results, columns, case_name, column, axis.figure, compared_figure(id))};
+    PointSeries series{column, {}};
+    for (const FrontPoint& point :
+         front_points(results, columns, case_name, column, axis.figure, compared_figure(id))) {
+      series.points.emplace_back(point.x, point.y);
+      series.jobs.push_back(case_name + ", " + column + ", asked for " +
+                            format_number(static_cast<double>(point.budget), 0) + " elements");
+    }
     if (!series.points.empty()) {
       scatter.series.push_back(std::move(series));
     }

@@ -1,6 +1,7 @@
 // cbc3d-bench report: a run as one HTML file.
 #include <iostream>
 
+#include "mesher/command_line/number_range.hpp"
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
 #include "reports/charts/pictures.hpp"
@@ -11,6 +12,7 @@
 #include "reports/run/workplace.hpp"
 #include "reports/tables/microbenchmark_table.hpp"
 #include "reports/tables/tables.hpp"
+#include "reports/viewer/view_section.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -20,6 +22,7 @@ struct ReportOptions {
   std::vector<std::filesystem::path> microbenchmarks;
   bool pictures = true, quiet = false;
   int threads = 0;
+  ViewOptions view;
 };
 
 int write_report(const ReportOptions& options) {
@@ -39,6 +42,8 @@ int write_report(const ReportOptions& options) {
   if (options.pictures && !std::filesystem::exists(report.picture_dir)) {
     draw_pictures(folder, report.results, bin_dir(), progress);
   }
+  progress.step("meshes of the 3D view", 1);
+  report.view = view_section(folder, report.results, options.view);
   progress.done();
   write_text_file(options.out, to_html(report));
   if (!options.quiet) {
@@ -53,14 +58,19 @@ Command add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
   CLI::App* parser = app.add_subcommand(
       "report",
-      "Writes a run as one HTML file that opens from disk, on a phone and in print: tables, plots, "
-      "pictures, failed jobs, provenance");
+      "Writes a run as one HTML file that opens from disk, on a phone and in print: tables, plots, a 3D view "
+      "of the meshes, pictures, failed jobs, provenance");
   parser->add_option("DIR", options->folder, "folder of a run or a sweep")->required();
   parser->add_option("-o,--out", options->out, "HTML file to write")->required();
   parser->add_option("--title", options->title, "title of the report");
   parser->add_option("--microbenchmarks", options->microbenchmarks,
                      "Google Benchmark's JSON files to put in");
   add_manifests_option(parser, options->manifests);
+  parser
+      ->add_option("--view-megabytes", options->view.megabytes,
+                   "MB of the file for the meshes of the 3D view, which are simplified to fit; 0: no view")
+      ->capture_default_str()
+      ->check(number_between(0, 1000));
   parser->add_flag("!--no-pictures", options->pictures, "do not draw pictures that are missing");
   add_idle_options(parser, options->threads, "writing needs", options->quiet, "no progress");
   return {parser, [options] { return write_report(*options); }};

@@ -4,11 +4,15 @@
 #include <fstream>
 
 #include "mesher/core/atomic_file.hpp"
+#include "mesher/mesh_formats/mesh_io.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "reports/output/html.hpp"
 #include "reports/output/output.hpp"
 #include "reports/run/child_process.hpp"
 #include "reports/tables/tables.hpp"
+#include "reports/viewer/scripts.hpp"
+#include "reports/viewer/testing_box.hpp"
+#include "reports/viewer/view_section.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -86,6 +90,49 @@ TEST(Browser, ShowsTheReportOnAPhoneWithoutSidewaysScrolling) {
   EXPECT_EQ(number_after(title, "plots="), 3) << title;
   EXPECT_EQ(number_after(title, "bold="), 0) << title;
   EXPECT_NE(title.find("last=provenance"), std::string::npos) << title;
+}
+
+bool is_there(const char* program) {
+  return run_child({{program, "--version"}, 1, 0, 0}).end != ChildEnd::not_started;
+}
+
+/// Two meshers' meshes of a box of two labels.
+std::vector<Json> results_with_meshes(const fs::path& folder) {
+  std::vector<Json> lines = results();
+  lines.resize(2);
+  for (Json& line : lines) {
+    const std::string file = line["mesher"].get<std::string>() + ".vtu";
+    write_mesh(testing::box(line["mesher"] == "cgal" ? 8 : 12), folder / file);
+    line["mesh_file"] = file;
+    line["image"] = {{"size", {12, 12, 12}},
+                     {"spacing_mm", {1, 1, 1}},
+                     {"labels", {1, 2}},
+                     {"label_names", {{"1", "<img src=x onerror=alert(1)>"}, {"2", "upper half"}}}};
+  }
+  return lines;
+}
+
+TEST(Browser, TurnsCutsAndPicksLabelsIn3DAndSortsTablesWithoutTheNetwork) {
+  constexpr double kTimeoutS = 900;  // software draws, perhaps on a busy machine
+  if (!is_there("chromium") || !is_there("node")) {
+    GTEST_SKIP() << "chromium or node is not installed";
+  }
+  const TemporaryFolder folder;
+  const std::vector<JobResult> jobs = decode_lines(results_with_meshes(folder.path()));
+  const std::string view = view_section(folder.path(), jobs, {});
+  write_text_file(folder.path() / "report.html",
+                  to_html({"A <i>report</i>", jobs, build_tables({jobs, {}, folder.path()}),
+                           all_figures(folder.path(), jobs), folder.path() / "none", view}));
+  const std::string script = R"(exec node "$1" "$2/report.html" >"$2/checks.txt" 2>&1)";
+  const ChildResult child =
+      run_child({{"/bin/sh", "-c", script, "sh", DRIVE_REPORT, folder.path()}, 1, kTimeoutS, 0});
+  EXPECT_EQ(child.exit_code, 0) << folder.content("checks.txt");
+  EXPECT_EQ(child.end, ChildEnd::exited);
+  EXPECT_NE(folder.content("checks.txt").find("ok: no errors, no request"), std::string::npos);
+  if (view_script().empty()) {
+    GTEST_SKIP() << "tables and plots alone: built without the packages of the viewer";
+  }
+  EXPECT_NE(folder.content("checks.txt").find("ok: a drag turns it"), std::string::npos);
 }
 
 }  // namespace

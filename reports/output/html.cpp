@@ -2,66 +2,20 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "reports/charts/picture_kinds.hpp"
 #include "reports/results/columns.hpp"
 #include "reports/tables/markup.hpp"
+#include "reports/viewer/scripts.hpp"
 
 namespace cbc3d::reports {
 namespace {
 namespace fs = std::filesystem;
-
-constexpr const char* kStyle = R"(
-:root { color-scheme: light; }
-* { box-sizing: border-box; }
-body { font: 16px/1.5 system-ui, -apple-system, "Segoe UI", sans-serif; color: #1c1e21; background: #fff;
-       margin: 0 auto; padding: 1rem; max-width: 76rem; }
-h1 { font-size: 1.7rem; line-height: 1.2; margin: .5rem 0; }
-h2 { font-size: 1.3rem; border-bottom: 2px solid #0072b2; margin: 2.2rem 0 .8rem; padding-bottom: .2rem; }
-h3 { font-size: 1.05rem; margin: 1.4rem 0 .4rem; }
-nav a { display: inline-block; margin: 0 .9rem .2rem 0; }
-a { color: #005a8f; }
-.scroll { overflow-x: auto; -webkit-overflow-scrolling: touch; }
-table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .3rem .6rem; border-bottom: 1px solid #d8dbe0; text-align: right; vertical-align: top; }
-th { background: #f1f3f6; }
-th:nth-child(-n+2), td:nth-child(-n+2), .left td, .left th { text-align: left; }
-td.failed { color: #a3240c; }
-tbody tr:hover { background: #f7f9fb; }
-.notes { font-size: .8rem; color: #444; padding-left: 1.4rem; overflow-wrap: anywhere; }
-figure { margin: 0; }
-figcaption { font-size: .8rem; color: #444; }
-.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 1rem; }
-.plots svg { width: 100%; height: auto; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 15rem), 1fr)); gap: .8rem; }
-.pictures img { width: 100%; height: auto; border: 1px solid #d8dbe0; display: block; }
-.badge { display: inline-block; border-radius: .8rem; padding: .05rem .7rem; margin: 0 .4rem .3rem 0; background: #e6e9ed; }
-.badge.ok { background: #cfeadb; } .badge.bad { background: #f7d5cc; }
-dl { display: grid; grid-template-columns: minmax(7rem, auto) 1fr; gap: .1rem 1rem; font-size: .85rem; }
-dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
-td code { font-size: .78rem; white-space: nowrap; }
-@media (max-width: 40rem) {
-  body { padding: .7rem; font-size: 15px; } h1 { font-size: 1.35rem; }
-  th:first-child, td:first-child { position: sticky; left: 0; background: #fff; min-width: 6rem; max-width: 9rem;
-                                   overflow-wrap: break-word; }
-  .plots figure { overflow-x: auto; } .plots svg { min-width: 28rem; }
-  dl { grid-template-columns: 1fr; } dd { margin-bottom: .4rem; }
-}
-@media print {
-  body { max-width: none; padding: 0; font-size: 10pt; } nav { display: none; }
-  .scroll { overflow: visible; } table { font-size: 7.5pt; } td code { font-size: 5.5pt; } th, td { padding: .1rem .25rem; }
-  tr, figure, .plots > *, .pictures > * { break-inside: avoid; } h2, h3 { break-after: avoid; }
-  .pictures { grid-template-columns: repeat(4, 1fr); } .plots { grid-template-columns: repeat(2, 1fr); }
-  a { color: inherit; text-decoration: none; }
-}
-)";
-
-std::string element(const std::string& name, const std::string& content, const std::string& attributes = "") {
-  return "<" + name + (attributes.empty() ? "" : " " + attributes) + ">" + content + "</" + name + ">\n";
-}
 
 /// True for a table of words rather than figures.
 bool holds_texts(const Table& table) {
@@ -69,6 +23,23 @@ bool holds_texts(const Table& table) {
     return std::all_of(row.cells.begin(), row.cells.end(),
                        [](const Cell& cell) { return !cell.text.empty(); });
   });
+}
+
+/// True where rows have figures of different units, which are not sorted among each other.
+bool has_several_figures(const Table& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [&](const Row& row) { return row.figure != table.rows.front().figure; });
+}
+
+/// The exact figure of a cell, for sorting; `line` counts from the header.
+std::string stated_value(const Table& table, std::size_t line, std::size_t column) {
+  constexpr int kDigits = 12;
+  if (line == 0 || column < 2 || !table.rows[line - 1].cells[column - 2].value) {
+    return "";
+  }
+  std::ostringstream text;
+  text << std::setprecision(kDigits) << *table.rows[line - 1].cells[column - 2].value;
+  return " data-value=\"" + text.str() + "\"";
 }
 
 std::string summary(const Report& report) {
@@ -145,7 +116,7 @@ std::string failures(const Report& report) {
     return element("p", "None.");
   }
   return "<div class=\"scroll\"><table "
-         "class=\"left\"><thead><tr><th>job</th><th>status</th><th>reason</th></tr>"
+         "class=\"sortable left\"><thead><tr><th>job</th><th>status</th><th>reason</th></tr>"
          "</thead><tbody>\n" +
          rows + "</tbody></table></div>\n";
 }
@@ -199,7 +170,7 @@ std::string job_digests(const Report& report) {
             text("program_sha256") + text("load_1min") + text("utc") + "</tr>\n";
   }
   return "<div class=\"scroll\"><table "
-         "class=\"left\"><thead><tr><th>job</th><th>parameters</th><th>version</th>"
+         "class=\"sortable left\"><thead><tr><th>job</th><th>parameters</th><th>version</th>"
          "<th>licence</th><th>seed</th><th>image sha256</th><th>configuration sha256</th><th>program "
          "sha256</th>"
          "<th>load</th><th>UTC</th></tr></thead><tbody>\n" +
@@ -228,16 +199,18 @@ std::string table_html(const Table& table) {
   const auto rows =
       texts_of(table, footnotes, [](std::size_t number) { return " [" + std::to_string(number) + "]"; });
   std::string html = element("h3", markup_text(table.title), "id=\"table-" + markup_text(table.name) + "\"");
-  html += holds_texts(table) ? "<div class=\"scroll\"><table class=\"left\">\n"
-                             : "<div class=\"scroll\"><table>\n";
+  html += "<div class=\"scroll\"><table class=\"sortable" +
+          std::string(holds_texts(table) ? " left\"" : "\"") +
+          (has_several_figures(table) ? " data-figures=\"1\">\n" : ">\n");
   for (std::size_t line = 0; line < rows.size(); ++line) {
     html += line == 0 ? "<thead><tr>" : "<tr>";
     for (std::size_t column = 0; column < rows[line].size(); ++column) {
       const std::string text = markup_text(rows[line][column]);
       const bool failed = line > 0 && (rows[line][column].rfind("- [", 0) == 0 ||
                                        (column >= 2 && table.rows[line - 1].cells[column - 2].missed));
-      html +=
-          line == 0 ? "<th>" + text + "</th>" : (failed ? "<td class=\"failed\">" : "<td>") + text + "</td>";
+      html += line == 0 ? "<th>" + text + "</th>"
+                        : "<td" + std::string(failed ? " class=\"failed\"" : "") +
+                              stated_value(table, line, column) + ">" + text + "</td>";
     }
     html += line == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
   }
@@ -260,23 +233,6 @@ std::string plots_html(const std::vector<Figure>& figures) {
   return html.empty() ? "" : element("div", html, "class=\"plots\"");
 }
 
-std::string html_page(const std::string& title, const std::string& lead,
-                      const std::vector<PageSection>& sections) {
-  std::string links, content;
-  for (const PageSection& section : sections) {
-    if (!section.html.empty()) {
-      const std::string id = markup_text(section.id), name = markup_text(section.name);
-      links += "<a href=\"#" + id + "\">" + name + "</a>";
-      content += element("section", element("h2", name) + section.html, "id=\"" + id + "\"");
-    }
-  }
-  const std::string text = markup_text(title);
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         text + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n" + element("h1", text) + lead +
-         element("nav", links) + content + "</body></html>\n";
-}
-
 std::string to_html(const Report& report) {
   std::string tables;
   for (const Table& table : report.tables) {
@@ -285,9 +241,12 @@ std::string to_html(const Report& report) {
   return html_page(report.title, summary(report),
                    {{"tables", "Tables", tables},
                     {"plots", "Plots", plots_html(report.figures)},
+                    {"view3d", "3D view", report.view},
                     {"pictures", "Pictures", pictures(report)},
                     {"failed", "Jobs that are not ok", failures(report)},
-                    {"provenance", "Provenance", provenance_html(report)}});
+                    {"provenance", "Provenance", provenance_html(report)}},
+                   report.view.empty() || view_script().empty() ? std::vector<std::string_view>{}
+                                                                : std::vector{view_script()});
 }
 
 }  // namespace cbc3d::reports

@@ -33,7 +33,9 @@ TEST(Html, HoldsEverythingAndAsksForNothing) {
   const std::vector<JobResult> results = decode_lines(lines);
   const std::string html = to_html({"A \"title\"", results, build_tables({results, {}, folder.path()}),
                                     all_figures(folder.path(), results), folder.path() / "small"});
-  EXPECT_EQ(count(html, "<script"), 0U);
+  EXPECT_EQ(count(html, "<script"), 2U) << "ours alone: that of a reason is escaped";
+  EXPECT_EQ(count(html, "'sha256-"), 2U) << "and no other may run";
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
   EXPECT_EQ(count(html, "http://") - count(html, "xmlns=\"http://"), 0U);
   EXPECT_EQ(count(html, "https://"), 0U);
   EXPECT_EQ(count(html, "<link"), 0U);

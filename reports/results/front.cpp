@@ -111,15 +111,15 @@ std::optional<double> FrontCurve::at(double elements) const {
   return above == points_.end() ? points_.back().second : interpolated(above[-1], above[0], elements);
 }
 
-FrontCurve::Points front_points(const std::vector<JobResult>& results, const Columns& columns,
-                                const std::string& case_name, const std::string& column, const FigureOf& x,
-                                const FigureOf& y) {
-  FrontCurve::Points points;
+std::vector<FrontPoint> front_points(const std::vector<JobResult>& results, const Columns& columns,
+                                     const std::string& case_name, const std::string& column,
+                                     const FigureOf& x, const FigureOf& y) {
+  std::vector<FrontPoint> points;
   for (const std::int64_t budget : budgets_of(results, case_name)) {
     const Runs runs = runs_with_budget(results, columns, case_name, column, budget);
     const auto at = median_of(runs, x), value = median_of(runs, y);
     if (at && value && *at > 0) {
-      points.emplace_back(*at, *value);
+      points.push_back({budget, *at, *value});
     }
   }
   return points;
@@ -127,8 +127,12 @@ FrontCurve::Points front_points(const std::vector<JobResult>& results, const Col
 
 FrontCurve front_curve(const std::vector<JobResult>& results, const Columns& columns,
                        const std::string& case_name, const std::string& column, MetricId id) {
-  return FrontCurve(front_points(results, columns, case_name, column, shown_figure(metric_id("elements")),
-                                 compared_figure(id)));
+  FrontCurve::Points points;
+  for (const FrontPoint& point : front_points(results, columns, case_name, column,
+                                              shown_figure(metric_id("elements")), compared_figure(id))) {
+    points.emplace_back(point.x, point.y);
+  }
+  return FrontCurve(std::move(points));
 }
 
 double times_worse(double value, double other, Worse worse) {

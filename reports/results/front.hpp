@@ -43,10 +43,16 @@ class FrontCurve {
 FrontCurve front_curve(const std::vector<JobResult>& results, const Columns& columns,
                        const std::string& case_name, const std::string& column, metrics::MetricId id);
 
-/// The medians of two figures of the same runs as a point each, in the order of the budgets.
-FrontCurve::Points front_points(const std::vector<JobResult>& results, const Columns& columns,
-                                const std::string& case_name, const std::string& column, const FigureOf& x,
-                                const FigureOf& y);
+/// The medians of two figures of the same runs.
+struct FrontPoint {
+  std::int64_t budget = 0;
+  double x = 0, y = 0;
+};
+
+/// A point for each budget, in their order.
+std::vector<FrontPoint> front_points(const std::vector<JobResult>& results, const Columns& columns,
+                                     const std::string& case_name, const std::string& column,
+                                     const FigureOf& x, const FigureOf& y);
 
 /// By which factor a figure is worse than another: at least 1 when `value` is worse, infinite when the better
 /// of two errors is 0 or the worse of two qualities is 0 or below. `worse` is higher or lower.
