@@ -3,6 +3,19 @@
 import peer
 
 
+def materials_of(volume, points, tets, references):
+    """References are numbered anew where a label was lost, so each stands for what most centroids of its tets lie in."""
+    import numpy
+
+    places = numpy.rint(points[tets].mean(axis=1) / volume.spacing_mm).astype(int)
+    places = numpy.clip(places, 0, numpy.array(volume.materials.shape) - 1)
+    found, materials = volume.materials[tuple(places.T)], numpy.zeros(len(tets), int)
+    for reference in numpy.unique(references):
+        counts = numpy.bincount(found[references == reference], minlength=len(volume.values))
+        materials[references == reference] = 1 + counts[1:].argmax()
+    return materials
+
+
 def mesh(volume, options, stages):
     import numpy
     import pygalmesh
@@ -17,7 +30,8 @@ def mesh(volume, options, stages):
     stages.end("mesh")
     cells = [(block.data, data) for block, data in zip(made.cells, made.cell_data["medit:ref"]) if block.type == "tetra"]
     tets = numpy.concatenate([block for block, _ in cells])
-    return peer.TetMesh(made.points, tets, numpy.concatenate([data for _, data in cells]).astype(int))
+    references = numpy.concatenate([data for _, data in cells]).astype(int)
+    return peer.TetMesh(made.points, tets, materials_of(volume, made.points, tets, references))
 
 
 def versions():
