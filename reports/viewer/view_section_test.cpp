@@ -45,7 +45,7 @@ TEST(ViewSection, HoldsEveryMeshOnceAndEscapesNames) {
     EXPECT_NE(html.find("Not in this report"), std::string::npos);
     GTEST_SKIP() << "built without the packages of the viewer";
   }
-  EXPECT_EQ(count(html, "id=\"view-mesh-"), 1U);
+  EXPECT_EQ(count(html, "id=\"view-mesh-"), 1U) << html;
   EXPECT_EQ(count(html, "<script"), 2U) << "headers and the mesh; none of a name";
   EXPECT_NE(html.find("\\u003c/script>\\u003cscript>alert(1)"), std::string::npos);
   EXPECT_NE(html.find("12 tets, all shown"), std::string::npos);
@@ -65,7 +65,7 @@ TEST(ViewSection, MeshesOfTheSameBytesShareTheirData) {
     line["mesh_sha256"] = std::string(64, 'a');
   }
   const std::string html = view_section(folder.path(), decode_lines(lines), {});
-  EXPECT_EQ(count(html, "id=\"view-mesh-"), 1U);
+  EXPECT_EQ(count(html, "id=\"view-mesh-"), 1U) << html;
   EXPECT_EQ(count(html, "\"data\":0"), 2U);
 }
 
