@@ -51,7 +51,8 @@ class NewLabels {
     if (others.size() == background.size() && !background.empty() && image.voxels_per_material()[0] > 0) {
       of_material_[0] = background.front();
       const NamedLabel* const zero = names_.find(0);
-      names_.set({.label = background.front(), .name = zero == nullptr ? std::string() : zero->name});
+      names_.set(
+          {.label = background.front(), .name = zero == nullptr ? std::string() : zero->name, .colour = {}});
       warnings_.push_back(subject_ + ": its voxels of value 0 have the label " +
                           std::to_string(background.front()) +
                           ", for 0 stands for background; --background 0," +
@@ -104,7 +105,7 @@ class NewLabels {
                        ": --keep-rest finds no number above its largest label; renumber the labels");
     }
     const Label rest = std::max(there.back(), Label{0}) + 1;
-    names_.set({.label = rest, .name = "rest"});
+    names_.set({.label = rest, .name = "rest", .colour = {}});
     warnings_.push_back(subject_ + ": its other labels are together label " + std::to_string(rest));
     return rest;
   }

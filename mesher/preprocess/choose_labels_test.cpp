@@ -63,8 +63,8 @@ TEST_F(ChooseLabels, TheRestIsALabelOfItsOwn) {
 TEST_F(ChooseLabels, AnotherValueIsBackground) {
   EXPECT_EQ(chosen({.background = {0, 5}}), (Labels{0, 2, 0, 7}));
   EXPECT_TRUE(warnings_.empty());
-  names_.set({.label = 0, .name = "air"});
-  names_.set({.label = 5, .name = "outside"});
+  names_.set({.label = 0, .name = "air", .colour = {}});
+  names_.set({.label = 5, .name = "outside", .colour = {}});
   EXPECT_EQ(chosen({.background = {5}}), (Labels{5, 2, 0, 7})) << "0 takes the number";
   ASSERT_EQ(warnings_.size(), 1U);
   EXPECT_NE(warnings_[0].find("value 0 have the label 5"), std::string::npos);

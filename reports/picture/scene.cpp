@@ -40,6 +40,7 @@
 
 #include "mesher/core/atomic_file.hpp"
 #include "mesher/core/error.hpp"
+#include "mesher/core/label_colours.hpp"
 
 namespace cbc3d::reports {
 namespace {
@@ -48,32 +49,6 @@ using Colour = std::array<double, 3>;
 
 constexpr std::size_t kLegendLabels = 12;
 const char* const kMaterialArray = "material";
-
-/// Distinct for the first ten, then steps around the colour circle by the golden angle.
-Colour material_colour(std::size_t material) {
-  static constexpr std::array<Colour, 10> kPalette{{{.85, .42, .36},
-                                                    {.42, .62, .80},
-                                                    {.95, .80, .42},
-                                                    {.47, .71, .46},
-                                                    {.66, .52, .75},
-                                                    {.93, .60, .33},
-                                                    {.40, .73, .71},
-                                                    {.88, .60, .73},
-                                                    {.68, .58, .44},
-                                                    {.73, .75, .78}}};
-  if (material >= 1 && material <= kPalette.size()) {
-    return kPalette[material - 1];
-  }
-  vtkNew<vtkLookupTable> wheel;
-  wheel->SetNumberOfTableValues(1);
-  const double hue = std::fmod(0.618034 * static_cast<double>(material), 1.0);
-  wheel->SetHueRange(hue, hue);
-  wheel->SetSaturationRange(0.45, 0.45);
-  wheel->SetValueRange(0.85, 0.85);
-  wheel->ForceBuild();
-  const double* colour = wheel->GetTableValue(0);
-  return {colour[0], colour[1], colour[2]};
-}
 
 /// Cells of a kind with the index of their label in the image, by which they are coloured.
 template <int Nodes>
@@ -119,7 +94,7 @@ vtkNew<vtkLookupTable> colour_table(const LabelImage& image) {
   table->SetNumberOfTableValues(static_cast<vtkIdType>(image.labels.size()));
   table->SetTableRange(0, static_cast<double>(image.labels.size()) - 1);
   for (std::size_t m = 0; m < image.labels.size(); ++m) {
-    const Colour c = material_colour(m);
+    const Colour c = m == 0 ? Colour{1, 1, 1} : label_colour(m - 1);  // background has no cells
     table->SetTableValue(static_cast<vtkIdType>(m), c[0], c[1], c[2], 1);
   }
   return table;
@@ -160,7 +135,7 @@ void add_legend(vtkRenderer* renderer, const LabelImage& image, const PictureOpt
   }
   constexpr double kLineHeight = 0.036;
   for (std::size_t m = 1; m <= count; ++m) {
-    const Colour colour = material_colour(m);
+    const Colour colour = label_colour(m - 1);
     vtkNew<vtkTextActor> text;
     text->SetInput((" " + options.names.text(image.labels[m]) + " ").c_str());
     vtkTextProperty* style = text->GetTextProperty();

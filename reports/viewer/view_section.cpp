@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mesher/core/error.hpp"
+#include "mesher/core/label_colours.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
 #include "reports/results/columns.hpp"
 #include "reports/results/format_number.hpp"
@@ -47,6 +48,22 @@ std::size_t elements_of(const JobResult& job) {
   return count && *count > 0 ? static_cast<std::size_t>(*count) : 0;
 }
 
+/// Tets that the job's mesh has at most once its elements are split; a hex gives six. Not known: as many as
+/// may be.
+std::size_t expected_tets(const JobResult& job, std::size_t most_tets) {
+  constexpr std::size_t kTetsPerHex = 6;
+  const std::size_t elements = elements_of(job);
+  const auto& tets = job.figures[metrics::metric_id("counts.tets")];
+  const bool is_mixed = tets && static_cast<std::size_t>(*tets) < elements;
+  return elements == 0 ? most_tets : std::min(most_tets, is_mixed ? kTetsPerHex * elements : elements);
+}
+
+std::array<std::uint8_t, 3> bytes_of(const std::array<double, 3>& colour) {
+  std::array<std::uint8_t, 3> bytes{};
+  for (std::size_t c = 0; c < 3; ++c) bytes[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
+  return bytes;
+}
+
 std::string hexadecimal(const std::array<std::uint8_t, 3>& colour) {
   std::array<char, 8> text{};
   std::snprintf(text.data(), text.size(), "#%02x%02x%02x", colour[0], colour[1], colour[2]);
@@ -65,8 +82,9 @@ Json labels_json(const JobResult& job, const std::vector<Label>& labels, const L
         found == known.end() ? n + known.size() : static_cast<std::size_t>(found - known.begin());
     const NamedLabel* named = names.find(labels[n]);
     const bool has_colour = named != nullptr && named->colour;
-    list.push_back({{"name", names.text(labels[n])},
-                    {"colour", has_colour ? hexadecimal(*named->colour) : label_colour(index)}});
+    list.push_back(
+        {{"name", names.text(labels[n])},
+         {"colour", has_colour ? hexadecimal(*named->colour) : hexadecimal(bytes_of(label_colour(index)))}});
   }
   return list;
 }
@@ -139,7 +157,7 @@ std::size_t most_tets(const Runs& jobs, const ViewOptions& options) {
   std::set<std::string> digests;
   for (const JobResult* job : jobs) {
     if (job->mesh_sha256.empty() || digests.insert(job->mesh_sha256).second) {
-      counts.push_back(std::min(options.most_tets, elements_of(*job)));
+      counts.push_back(expected_tets(*job, options.most_tets));
     }
   }
   const auto total = static_cast<std::size_t>(options.megabytes * 1e6 / kBytesPerTet);
@@ -163,24 +181,6 @@ PageMeshes page_meshes(const fs::path& folder, const std::vector<JobResult>& res
 }
 
 }  // namespace
-
-std::string label_colour(std::size_t index) {
-  static constexpr std::array kPalette{"#d96b5c", "#6b9ecc", "#f2cc6b", "#78b575", "#a885bf",
-                                       "#ed9954", "#66bab5", "#e099ba", "#ad9470", "#babfc7"};
-  if (index < kPalette.size()) {
-    return kPalette[index];
-  }
-  // Further ones stand around the circle of colours by the golden angle.
-  constexpr double kGolden = 0.618034, kSaturation = 0.45, kValue = 0.85;
-  std::array<std::uint8_t, 3> colour{};
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double turn = 6 * std::fmod(kGolden * static_cast<double>(index + 1), 1.0);
-    const double place = std::fmod(turn + 5 - 2 * static_cast<double>(channel), 6.0);
-    const double part = std::clamp(std::min(place, 4 - place), 0.0, 1.0);
-    colour[channel] = static_cast<std::uint8_t>(std::lround(255 * kValue * (1 - kSaturation * part)));
-  }
-  return hexadecimal(colour);
-}
 
 std::string view_section(const fs::path& folder, const std::vector<JobResult>& results,
                          const ViewOptions& options) {

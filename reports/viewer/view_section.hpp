@@ -22,7 +22,4 @@ struct ViewOptions {
 std::string view_section(const std::filesystem::path& folder, const std::vector<JobResult>& results,
                          const ViewOptions& options);
 
-/// "#d86b5c", of the `index`-th label of an image: as in the pictures (reports/picture/scene.cpp).
-std::string label_colour(std::size_t index);
-
 }  // namespace cbc3d::reports

@@ -73,11 +73,5 @@ TEST(ViewSection, WithoutRoomThereIsNone) {
   EXPECT_EQ(view_section("/nowhere", {}, {.megabytes = 0}), "");
 }
 
-TEST(ViewSection, LabelsHaveColoursOfTheirOwn) {
-  EXPECT_EQ(label_colour(0), "#d96b5c");
-  EXPECT_EQ(label_colour(500).size(), 7U);
-  EXPECT_NE(label_colour(10), label_colour(11));
-}
-
 }  // namespace
 }  // namespace cbc3d::reports
