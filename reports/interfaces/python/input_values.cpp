@@ -1,5 +1,6 @@
 #include "reports/interfaces/python/input_values.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,11 +18,23 @@ using py::literals::operator""_a;
 
 constexpr const char* kArray = "the label array";
 
+/// Nothing where the value is no whole number. Arrays claim to be one, and are if they have no axis.
+std::optional<std::string> whole_number_text(const py::handle& value) {
+  if (PyIndex_Check(value.ptr()) == 0) return std::nullopt;
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  if (!number) {
+    PyErr_Clear();
+    return std::nullopt;
+  }
+  return std::string(py::str(number));
+}
+
 /// The value of a keyword as a text of the command line: a sequence with commas between its members.
 std::string text_of(const py::handle& value) {
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  if (PyIndex_Check(value.ptr()) != 0 || !py::hasattr(value, "__iter__")) {
+  if (const auto number = whole_number_text(value)) return *number;
+  if (!py::hasattr(value, "__iter__")) {
     const std::string text = py::str(value);
     return text == "True" ? "true" : text == "False" ? "false" : text;  // numpy's booleans
   }

@@ -12,12 +12,14 @@ import cbc3d
 
 meshio, sparse, solvers = needs("meshio", "scipy.sparse", "scipy.sparse.linalg")
 SESSION = pathlib.Path(__file__).parent / "examples" / "session.py"
+# Of the rule of degree 3 with five points, which integrates the gradients of curved elements exactly.
+WEIGHTS = numpy.array([-4 / 5, 9 / 20, 9 / 20, 9 / 20, 9 / 20]) / 6
 EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
 
 
 def quadratic_gradients():
-    """Of the ten shape functions at the four points of the rule of degree 2, in the coordinates of the reference tet."""
-    points = numpy.full((4, 4), 0.1381966011250105) + numpy.eye(4) * (0.5854101966249685 - 0.1381966011250105)
+    """Of the ten shape functions at the points of the rule, in the coordinates of the reference tet."""
+    points = numpy.vstack([numpy.full(4, 1 / 4), numpy.full((4, 4), 1 / 6) + numpy.eye(4) / 3])
     of_corners = numpy.vstack([[-1, -1, -1], numpy.eye(3)])
     return numpy.array([[(4 * p[n] - 1) * of_corners[n] for n in range(4)]
                         + [4 * (p[a] * of_corners[b] + p[b] * of_corners[a]) for a, b in EDGES] for p in points])
@@ -31,13 +33,13 @@ def solve(mesh, values, fixed):
     determinants = numpy.linalg.det(jacobians)
     assert (determinants > 0).all()
     gradients = numpy.einsum("qna,cqad->cqnd", reference, numpy.linalg.inv(jacobians))
-    stiffness = numpy.einsum("cqnd,cqmd,cq->cnm", gradients, gradients, determinants / 24)
+    stiffness = numpy.einsum("cqnd,cqmd,cq->cnm", gradients, gradients, determinants * WEIGHTS)
     rows, columns = numpy.repeat(nodes, 10, axis=1).ravel(), numpy.tile(nodes, (1, 10)).ravel()
     matrix = sparse.coo_matrix((stiffness.ravel(), (rows, columns))).tocsr()
     free = ~fixed
     solution = values.copy()
     solution[free] = solvers.spsolve(matrix[free][:, free], -matrix[free][:, fixed] @ values[fixed])
-    return solution, determinants.sum() / 24
+    return solution, (determinants * WEIGHTS).sum()
 
 
 class Quadratic(unittest.TestCase):
@@ -54,7 +56,8 @@ class Quadratic(unittest.TestCase):
         solution, volume = solve(mesh, numpy.where(fixed, exact, 0), fixed)
         self.assertLess(numpy.abs(solution - exact).max(), 1e-8 * numpy.abs(exact).max())
         voxels = numpy.prod(SPACING) * (two_balls() > 0).sum()
-        self.assertLess(abs(volume / voxels - 1), 0.03)
+        # Vertices lie where flat facets have the labels' volumes, so that curved ones bulge beyond (mesher/quadratic/README.md).
+        self.assertTrue(0 < volume / voxels - 1 < 0.07)
 
     def test_the_session_of_ten_lines(self):
         needs("matplotlib")
