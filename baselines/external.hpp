@@ -5,13 +5,9 @@
 //  "description": "what it is",                         one line
 //  "licence": "MIT",                                    SPDX expression
 //  "command": ["mytool", "{image}", "{mesh}", "-j", "{threads}", "--size={size}"],
-//  "image": "nii.gz",                                   optional: nii, nii.gz, nrrd or mha, in which {image}
-//  then is;
-//                                                       default: as the case has it
+//  "image": "nii.gz",                                   optional: nii, nii.gz, nrrd or mha, see below
 //  "output": "vtu",                                     vtu, vtk or msh, with an integer cell array `label`
-//  "probe": ["./here.py", "mytool"],                    optional; ends with success where the mesher can run,
-//  else
-//                                                       its first line says why it cannot
+//  "probe": ["./here.py", "mytool"],                    optional, see below
 //  "version_command": ["mytool", "--version"],          optional; its first line goes into the provenance
 //  "multithreaded": true, "deterministic": true,        optional; default: false, true
 //  "parameters": [{"key": "size", "default": "2", "unit": "mm", "description": "element size"}],    optional
@@ -23,7 +19,9 @@
 // {mesh} and {report} are files, {threads} a number, all others must be parameters; "{{" stands for "{". A
 // program with a slash is meant relative to the JSON file's folder, any other is sought in PATH. A mesher
 // that writes to {report} the JSON of driver.hpp is timed by its own figures, any other from its start to its
-// end.
+// end. {image} is the case's own file unless "image" asks for a format, into which it is then converted.
+// "probe" is a command that succeeds where the mesher can run; the first line that it prints else is the
+// reason in the tables.
 #pragma once
 
 #include <filesystem>

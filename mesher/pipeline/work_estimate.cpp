@@ -104,10 +104,11 @@ std::string why_long_work(const LabelImage& image, std::uintmax_t file_bytes) {
   const double seconds = estimated_cpu_seconds(boundary_kinds_of(image), image.frame);
   if (seconds <= kSmallFileCpuSeconds) return "";
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "a file of %.1f KB alone, but its thin parts and boundaries take minutes of CPU or more (about %.0f s)",
-      static_cast<double>(file_bytes) / 1024, seconds);
+  std::snprintf(text, sizeof text,
+                "a file of %.1f KB alone, but its thin parts and boundaries may take minutes of CPU (about "
+                "%.0f s, give or take "
+                "a factor of three)",
+                static_cast<double>(file_bytes) / 1024, seconds);
   return text;
 }
 
