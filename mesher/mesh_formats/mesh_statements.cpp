@@ -47,8 +47,10 @@ std::optional<LabelText> label_text_of(std::string_view line) {
   const std::size_t equals = line.find(kEquals);
   if (equals == std::string_view::npos) return std::nullopt;
   LabelText found;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + equals, found.label);
-  if (error != std::errc() || end != line.data() + equals) return std::nullopt;
+  const std::string number(line.substr(0, equals));
+  const char* const number_end = number.data() + number.size();
+  const auto [end, error] = std::from_chars(number.data(), number_end, found.label);
+  if (error != std::errc() || end != number_end) return std::nullopt;
   found.text = line.substr(equals + kEquals.size());
   return found;
 }

@@ -131,11 +131,11 @@ void warn_of_missing_hexes(const MeshImageOptions& options, MeshImageReport& rep
   }
 }
 
-void warn_of_elements(const MeshImageOptions& options, std::size_t tets, MeshImageReport& report) {
+void warn_of_elements(const MeshImageOptions& options, std::size_t cells, MeshImageReport& report) {
   const auto wanted = static_cast<double>(options.elements);
-  if (options.elements > 0 && std::fabs(static_cast<double>(tets) - wanted) > 0.1 * wanted) {
+  if (options.elements > 0 && std::fabs(static_cast<double>(cells) - wanted) > 0.1 * wanted) {
     report.warnings.push_back("elements " + std::to_string(options.elements) +
-                              " could not be met: the mesh has " + std::to_string(tets));
+                              " could not be met: the mesh has " + std::to_string(cells));
   }
 }
 

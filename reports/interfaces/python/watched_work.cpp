@@ -1,5 +1,7 @@
 #include "reports/interfaces/python/watched_work.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -40,6 +42,9 @@ void join(std::thread& worker) {
 }  // namespace
 
 bool Meeting::ask(std::string_view stage, double fraction) {
+  // The work's threads have heaps of their own, which keep what a step has freed; the next step has other
+  // threads' to fill.
+  ::malloc_trim(0);
   std::unique_lock lock(mutex_);
   if (left_) return false;
   question_ = Question{std::string(stage), fraction};
