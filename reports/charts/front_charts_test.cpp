@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reports/charts/testing_tips.hpp"
 #include "reports/tables/testing_tables.hpp"
 
 namespace cbc3d::reports {
@@ -35,9 +36,10 @@ TEST(FrontCharts, EveryFigureIsDrawnOverElementsUnknownsAndSeconds) {
   }
   EXPECT_NE(find(figures, "front-liver-time-s-cpu-elements"), nullptr);
   EXPECT_EQ(find(figures, "front-liver-time-s-cpu-seconds"), nullptr);
-  EXPECT_NE(find(figures, "front-liver-fidelity-mean-distance-mm-unknowns")
-                ->svg.find("<title>liver, cgal, asked for 4,000 elements&#10;"),
-            std::string::npos);
+  const std::string tip = test::tip_of(find(figures, "front-liver-fidelity-mean-distance-mm-unknowns")->svg,
+                                       "liver, cgal, asked for 4,000 elements");
+  EXPECT_NE(tip.find(": 666&#10;"), std::string::npos) << tip;
+  EXPECT_TRUE(tip.ends_with(": 0.1")) << tip;
 }
 
 TEST(FrontCharts, ARunWithoutBudgetsHasNone) {
