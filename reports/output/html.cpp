@@ -34,11 +34,15 @@ bool has_several_figures(const Table& table) {
 /// The exact figure of a cell, for sorting; `line` counts from the header.
 std::string stated_value(const Table& table, std::size_t line, std::size_t column) {
   constexpr int kDigits = 12;
-  if (line == 0 || column < 2 || !table.rows[line - 1].cells[column - 2].value) {
+  if (line == 0 || column < 2) {
+    return "";
+  }
+  const auto& value = table.rows[line - 1].cells[column - 2].value;
+  if (!value) {
     return "";
   }
   std::ostringstream text;
-  text << std::setprecision(kDigits) << *table.rows[line - 1].cells[column - 2].value;
+  text << std::setprecision(kDigits) << *value;
   return " data-value=\"" + text.str() + "\"";
 }
 

@@ -51,7 +51,7 @@ bool Meeting::ask(std::string_view stage, double fraction) {
   answer_.reset();
   changed_.notify_all();
   changed_.wait(lock, [this] { return answer_ || left_; });
-  return !left_ && *answer_;
+  return !left_ && answer_.value_or(false);
 }
 
 void Meeting::end() {

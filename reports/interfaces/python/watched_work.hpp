@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <exception>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -68,23 +69,22 @@ auto watched(const pybind11::object& callback, Work work) {
     explicit Shared(Work given) : work(std::move(given)) {}
     Work work;
     std::shared_ptr<Meeting> meeting = std::make_shared<Meeting>();
-    std::optional<Result> result;
-    std::exception_ptr error;
+    std::promise<Result> result;
   };
   const auto shared = std::make_shared<Shared>(std::move(work));
   std::thread worker([shared] {
     try {
-      shared->result = shared->work(ProgressObserver([&shared](std::string_view stage, double fraction) {
+      const ProgressObserver observer([&shared](std::string_view stage, double fraction) {
         return shared->meeting->ask(stage, fraction);
-      }));
+      });
+      shared->result.set_value(shared->work(observer));
     } catch (...) {
-      shared->error = std::current_exception();
+      shared->result.set_exception(std::current_exception());
     }
     shared->meeting->end();
   });
   wait_for(shared->meeting, worker, callback);
-  if (shared->error) std::rethrow_exception(shared->error);
-  return std::move(*shared->result);
+  return shared->result.get_future().get();
 }
 
 }  // namespace cbc3d::python

@@ -200,7 +200,9 @@ void check_orders_and_split_interfaces() {
   try {
     filter->Update();
     check(false, "other orders are refused");
-  } catch (const itk::ExceptionObject&) {
+  } catch (const itk::ExceptionObject& error) {
+    check(std::string(error.GetDescription()).find("Order 3") != std::string::npos,
+          "the message names what is refused");
   }
 }
 
