@@ -81,7 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const bool paper = bytes[6] % 2 == 1;
   const std::optional<Mesh> one = mesh_of(image, paper, 1), two = mesh_of(image, paper, 2);
   require(one.has_value() == two.has_value());
-  if (one) {
+  if (one && two) {
     require_sound(*one, image);
     require(same(*one, *two));
   }

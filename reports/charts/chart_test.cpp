@@ -1,4 +1,5 @@
 #include "reports/charts/chart.hpp"
+#include "mesher/testing/count_of.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +7,8 @@
 
 namespace cbc3d::reports {
 namespace {
+
+using cbc3d::testing::count_of;
 
 TEST(Chart, TicksAreThoseAPersonWouldChoose) {
   EXPECT_EQ(axis_ticks(0), (std::vector<double>{0, 1}));
@@ -40,14 +43,6 @@ TEST(Chart, MarkersStandAcrossThePlotAndAreEscaped) {
   EXPECT_NE(line_chart(chart).find(">0</text>"), std::string::npos);
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) {
-    ++found;
-  }
-  return found;
-}
-
 TEST(Chart, EverySeriesIsAGroupWithItsEntryInTheLegend) {
   Scatter scatter;
   scatter.x_title = "distance (mm)";
@@ -55,10 +50,10 @@ TEST(Chart, EverySeriesIsAGroupWithItsEntryInTheLegend) {
   scatter.series = {{"one", {{1, 10}, {2, 20}}, {"liver, one <b>", "liver, one, again"}},
                     {"two", {{3, 30000}}}};
   const std::string svg = scatter_chart(scatter);
-  EXPECT_EQ(count(svg, "class=\"series\""), 2U);
-  EXPECT_EQ(count(svg, "class=\"key\""), 2U);
-  EXPECT_EQ(count(svg, "data-series=\"1\""), 2U);
-  EXPECT_EQ(count(svg, "class=\"mark point\""), 3U);
+  EXPECT_EQ(count_of(svg, "class=\"series\""), 2U);
+  EXPECT_EQ(count_of(svg, "class=\"key\""), 2U);
+  EXPECT_EQ(count_of(svg, "data-series=\"1\""), 2U);
+  EXPECT_EQ(count_of(svg, "class=\"mark point\""), 3U);
   EXPECT_NE(svg.find("<title>liver, one &lt;b&gt;&#10;distance (mm): 1&#10;angle (deg): 10</title>"),
             std::string::npos);
   EXPECT_NE(svg.find("<title>two&#10;distance (mm): 3&#10;angle (deg): 30,000</title>"), std::string::npos);
@@ -67,7 +62,7 @@ TEST(Chart, EverySeriesIsAGroupWithItsEntryInTheLegend) {
   chart.y_title = "time (s)";
   chart.series = {{"one", {5}, {0.5}, false}};
   for (const std::string& drawn : {bar_chart(chart), line_chart(chart)}) {
-    EXPECT_EQ(count(drawn, "class=\"series\""), 1U);
+    EXPECT_EQ(count_of(drawn, "class=\"series\""), 1U);
     EXPECT_NE(drawn.find("<title>one, liver&#10;time (s): 5 ± 0.5</title>"), std::string::npos);
   }
 }

@@ -2,23 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include "mesher/testing/count_of.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "reports/history/testing_history.hpp"
 
 namespace cbc3d::reports {
 namespace {
 
+using cbc3d::testing::count_of;
 using cbc3d::testing::TemporaryFolder;
 
 constexpr const char* kHostile = "<script>alert(\"x\")</script>";
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) {
-    ++found;
-  }
-  return found;
-}
 
 /// Slower by a third from the tenth commit on, with hostile names wherever a name can come from outside.
 std::string page() {
@@ -38,8 +32,8 @@ std::string page() {
 
 TEST(HistoryPage, PlotsWhatVariesAndMarksTheChange) {
   const std::string html = page();
-  EXPECT_EQ(count(html, "<svg"), 1U) << "all but the time ratio is constant";
-  EXPECT_EQ(count(html, "stroke-dasharray"), 1U) << "one change";
+  EXPECT_EQ(count_of(html, "<svg"), 1U) << "all but the time ratio is constant";
+  EXPECT_EQ(count_of(html, "stroke-dasharray"), 1U) << "one change";
   EXPECT_NE(html.find(", after c009, in c010, version 1.0"), std::string::npos);
   EXPECT_NE(html.find("The same at every commit: "), std::string::npos);
   EXPECT_NE(html.find("20 commits, 1 jobs, 1 changes for the worse."), std::string::npos);
@@ -48,13 +42,14 @@ TEST(HistoryPage, PlotsWhatVariesAndMarksTheChange) {
 
 TEST(HistoryPage, EscapesNamesAndAsksForNothing) {
   const std::string html = page();
-  EXPECT_EQ(count(html, "<script"), 2U) << "those of the page alone";
-  EXPECT_GE(count(html, "&lt;script&gt;alert(&quot;x&quot;)"), 5U);
-  EXPECT_EQ(count(html, "http://"), count(html, "xmlns=\"http://"));
-  EXPECT_EQ(count(html, "https://") + count(html, "src=") + count(html, "<link"), 0U);
+  EXPECT_EQ(count_of(html, "<script"), 2U) << "those of the page alone";
+  EXPECT_GE(count_of(html, "&lt;script&gt;alert(&quot;x&quot;)"), 5U);
+  EXPECT_EQ(count_of(html, "http://"), count_of(html, "xmlns=\"http://"));
+  EXPECT_EQ(count_of(html, "https://") + count_of(html, "src=") + count_of(html, "<link"), 0U);
   for (const char* tag : {"table", "section", "figure", "svg", "div", "g", "h2", "h3", "p"}) {
     const std::string name = tag;
-    EXPECT_EQ(count(html, "<" + name + " ") + count(html, "<" + name + ">"), count(html, "</" + name + ">"))
+    EXPECT_EQ(count_of(html, "<" + name + " ") + count_of(html, "<" + name + ">"),
+              count_of(html, "</" + name + ">"))
         << tag;
   }
 }

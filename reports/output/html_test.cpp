@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mesher/core/atomic_file.hpp"
+#include "mesher/testing/count_of.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "reports/output/output.hpp"
 #include "reports/sweep/testing_sweep.hpp"
@@ -11,15 +12,8 @@
 namespace cbc3d::reports {
 namespace {
 
+using cbc3d::testing::count_of;
 using cbc3d::testing::TemporaryFolder;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) {
-    ++found;
-  }
-  return found;
-}
 
 TEST(Html, HoldsEverythingAndAsksForNothing) {
   const TemporaryFolder folder;
@@ -33,21 +27,22 @@ TEST(Html, HoldsEverythingAndAsksForNothing) {
   const std::vector<JobResult> results = decode_lines(lines);
   const std::string html = to_html({"A \"title\"", results, build_tables({results, {}, folder.path()}),
                                     all_figures(folder.path(), results), folder.path() / "small"});
-  EXPECT_EQ(count(html, "<script"), 2U) << "ours alone: that of a reason is escaped";
-  EXPECT_EQ(count(html, "'sha256-"), 2U) << "and no other may run";
+  EXPECT_EQ(count_of(html, "<script"), 2U) << "ours alone: that of a reason is escaped";
+  EXPECT_EQ(count_of(html, "'sha256-"), 2U) << "and no other may run";
   EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
-  EXPECT_EQ(count(html, "http://") - count(html, "xmlns=\"http://"), 0U);
-  EXPECT_EQ(count(html, "https://"), 0U);
-  EXPECT_EQ(count(html, "<link"), 0U);
-  EXPECT_EQ(count(html, "src=\"data:image/jpeg;base64,"), 1U);
-  EXPECT_EQ(count(html, "src="), 1U);
+  EXPECT_EQ(count_of(html, "http://") - count_of(html, "xmlns=\"http://"), 0U);
+  EXPECT_EQ(count_of(html, "https://"), 0U);
+  EXPECT_EQ(count_of(html, "<link"), 0U);
+  EXPECT_EQ(count_of(html, "src=\"data:image/jpeg;base64,"), 1U);
+  EXPECT_EQ(count_of(html, "src="), 1U);
   EXPECT_NE(html.find("&lt;script&gt;alert(&quot;x&quot;)"), std::string::npos);
   EXPECT_NE(html.find("width=device-width"), std::string::npos);
   EXPECT_NE(html.find("@media print"), std::string::npos);
   for (const char* tag :
        {"table", "section", "figure", "svg", "div", "tr", "h2", "ol", "dl", "thead", "tbody"}) {
     const std::string name = tag;
-    EXPECT_EQ(count(html, "<" + name + " ") + count(html, "<" + name + ">"), count(html, "</" + name + ">"))
+    EXPECT_EQ(count_of(html, "<" + name + " ") + count_of(html, "<" + name + ">"),
+              count_of(html, "</" + name + ">"))
         << tag;
   }
   // Provenance comes last.

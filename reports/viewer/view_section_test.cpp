@@ -4,12 +4,14 @@
 
 #include "mesher/core/testing_mesh.hpp"
 #include "mesher/mesh_formats/mesh_io.hpp"
+#include "mesher/testing/count_of.hpp"
 #include "mesher/testing/temporary_folder.hpp"
 #include "reports/viewer/scripts.hpp"
 
 namespace cbc3d::reports {
 namespace {
 
+using cbc3d::testing::count_of;
 using cbc3d::testing::TemporaryFolder;
 
 Json line_of(const char* mesher, int repeat, const char* mesh_file) {
@@ -27,14 +29,6 @@ Json line_of(const char* mesher, int repeat, const char* mesh_file) {
   return line;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) {
-    ++found;
-  }
-  return found;
-}
-
 TEST(ViewSection, HoldsEveryMeshOnceAndEscapesNames) {
   const TemporaryFolder folder;
   write_mesh(cbc3d::testing::one_of_each(), folder.path() / "mesh.vtu");
@@ -45,8 +39,8 @@ TEST(ViewSection, HoldsEveryMeshOnceAndEscapesNames) {
     EXPECT_NE(html.find("Not in this report"), std::string::npos);
     GTEST_SKIP() << "built without the packages of the viewer";
   }
-  EXPECT_EQ(count(html, "id=\"view-mesh-"), 1U) << html;
-  EXPECT_EQ(count(html, "<script"), 2U) << "headers and the mesh; none of a name";
+  EXPECT_EQ(count_of(html, "id=\"view-mesh-"), 1U) << html;
+  EXPECT_EQ(count_of(html, "<script"), 2U) << "headers and the mesh; none of a name";
   EXPECT_NE(html.find("\\u003c/script>\\u003cscript>alert(1)"), std::string::npos);
   EXPECT_NE(html.find("12 tets, all shown"), std::string::npos);
   EXPECT_NE(html.find("Not shown:"), std::string::npos);
@@ -65,8 +59,8 @@ TEST(ViewSection, MeshesOfTheSameBytesShareTheirData) {
     line["mesh_sha256"] = std::string(64, 'a');
   }
   const std::string html = view_section(folder.path(), decode_lines(lines), {});
-  EXPECT_EQ(count(html, "id=\"view-mesh-"), 1U) << html;
-  EXPECT_EQ(count(html, "\"data\":0"), 2U);
+  EXPECT_EQ(count_of(html, "id=\"view-mesh-"), 1U) << html;
+  EXPECT_EQ(count_of(html, "\"data\":0"), 2U);
 }
 
 TEST(ViewSection, WithoutRoomThereIsNone) {
