@@ -13,6 +13,7 @@
 #include "mesher/improve/local/mesh_patches.hpp"
 #include "mesher/improve/local/mesh_star.hpp"
 #include "mesher/improve/local/vertex_moves.hpp"
+#include "mesher/improve/part_thickness.hpp"
 #include "mesher/improve/sample_cover.hpp"
 #include "mesher/improve/surface/defect_removal.hpp"
 #include "mesher/improve/surface/relabel_tets.hpp"
@@ -73,6 +74,7 @@ class Improver {
     if (!options_.only_bad) {
       fit();
       tighten_thin_parts();
+      limit_edges_of_thin_parts();
       decimate();
       settle_volumes();
     }
@@ -161,6 +163,22 @@ class Improver {
     }
   }
 
+  /// Edges that the decimation makes there are about as long as the part is thick times a factor: longer ones
+  /// would have flat tets between them, or none of their vertices inside.
+  void limit_edges_of_thin_parts() {
+    if (options_.edges_per_thickness > 0) {
+      const double natural_mm = tolerances::kEdgesPerReach * mm_.reach;
+      thin_edges_mm_ = thickness_at_vertices(mesh_, domain_, natural_mm / options_.edges_per_thickness);
+      scale_thin_edges(kLongestPerMean * options_.edges_per_thickness);
+    }
+  }
+
+  void scale_thin_edges(double factor) {
+    for (double& longest : thin_edges_mm_) {
+      longest *= factor;
+    }
+  }
+
   void decimate() { options_.target_tets > 0 ? decimate_to_target() : decimate_for_distance(); }
 
   /// Rounds of decimation while they reduce the number of tets enough.
@@ -205,6 +223,7 @@ class Improver {
       return;
     }
     mm_.reach *= factor;
+    scale_thin_edges(factor);
     mm_.deviation = std::max(mm_.deviation, std::min(factor * mm_.deviation, kLargestDeviation * mm_.scale));
     cover_.reach_mm = mm_.reach;
   }
@@ -222,6 +241,7 @@ class Improver {
       sizes_ = graded_sizes(mesh_, options_.gradation, longest_inner_mm());
       allow_edges_at_fixed_vertices();
     }
+    longest_on_interface_mm_ = thin_edges_mm_;
     in_patches("decimation", [&](Patch& patch) {
       CollapseOptions collapse = all_collapses;
       collapse.least_tets =
@@ -240,6 +260,7 @@ class Improver {
       optimize_worst_angles(patch, goal_);
     });
     sizes_.clear();
+    longest_on_interface_mm_ = {};
   }
 
   [[nodiscard]] bool is_fixed(VertexId v) const { return v < fixed_.size() && fixed_[v] != 0; }
@@ -484,6 +505,7 @@ class Improver {
             .own_reach_mm = cover_.own_reach_mm,
             .fixed = fixed_,
             .longest_mm = sizes_,
+            .longest_on_interface_mm = longest_on_interface_mm_,
             .smoothness_cap_mm = caps_};
   }
 
@@ -508,9 +530,11 @@ class Improver {
   std::vector<double> longest_mm_;  // edges of each material
   VolumeOffsets offsets_;
   SampleCover cover_{};
-  std::vector<double> caps_;   // of the smoothness, by material
-  std::vector<double> sizes_;  // in a round of decimation with a gradation
-  double least_share_ = 0;     // of its tets that a patch keeps in a round of decimation
+  std::vector<double> caps_;                         // of the smoothness, by material
+  std::vector<double> sizes_;                        // in a round of decimation with a gradation
+  std::vector<double> thin_edges_mm_;                // the longest ones at vertices on interfaces
+  std::span<const double> longest_on_interface_mm_;  // the same in a round of decimation
+  double least_share_ = 0;  // of its tets that a patch keeps in a round of decimation
   int round_ = 0;
   bool may_have_defects_ = false;  // the last relabelling has left some
   StageClock clock_;               // of the parts

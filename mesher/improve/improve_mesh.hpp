@@ -40,6 +40,9 @@ struct ImproveOptions {
   /// No inner vertex vanishes where that leaves edges longer than those of the nearest interface and about
   /// this times the distance from there (graded_sizes). Interfaces are decimated as ever. Below 0: no limit.
   double gradation = 1;
+  /// Where a part is thinner than its edges would be long, the decimation makes them about this many times as
+  /// long as it is thick (part_thickness.hpp); 0: no limit.
+  double edges_per_thickness = 2;
   /// Collapses may leave angles below the goal by this, though not below half of it, for later steps to
   /// repair.
   double collapse_leeway_deg = 7.5;

@@ -227,6 +227,14 @@ TEST(ImproveMesh, GradationBoundsTheGrowthAndCostsTets) {
   }
 }
 
+TEST(ImproveMesh, ThickPartsKnowNoThickness) {
+  ImproveOptions free;
+  free.edges_per_thickness = 0;
+  const MaterialMesh without = improved(ball(), free), with = improved(ball(), {});
+  EXPECT_EQ(without.points, with.points);
+  EXPECT_EQ(without.tets, with.tets);
+}
+
 /// The mean angle between neighbouring edges of the curve where two labels and the background meet, degrees.
 double mean_kink_deg(const MaterialMesh& mesh) {
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());

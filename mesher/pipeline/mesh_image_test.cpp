@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesher/core/error.hpp"
+#include "mesher/improve/local/tet_shape.hpp"
 #include "mesher/pipeline/mesh_image.hpp"
 #include "mesher/pipeline/presets.hpp"
 #include "mesher/preprocess/clean_image.hpp"
@@ -380,6 +381,40 @@ TEST(MeshImage, ShortEdgesDoNotFollowTheStepsOfTheVoxels) {
   }
   EXPECT_LE(sum_deg / static_cast<double>(facets), 6);
   EXPECT_LE(largest_mm, 0.4);
+}
+
+/// The mean ratio that a twentieth of a label's tets is below, and their number.
+std::pair<double, std::size_t> shape_of_label(const Mesh& mesh, Label label) {
+  std::vector<double> ratios;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (mesh.tets.labels[t] != label) continue;
+    const auto& n = mesh.tets.nodes[t];
+    const auto p = [&](std::size_t c) { return mesh.points[n[c]]; };
+    ratios.push_back(1 / std::cbrt(shape_energy(p(0), p(1), p(2), p(3))));
+  }
+  std::sort(ratios.begin(), ratios.end());
+  return {ratios[ratios.size() / 20], ratios.size()};
+}
+
+TEST(MeshImage, ThinPartsHaveEdgesThatFitTheirThickness) {
+  // A plate of one voxel, and a thick block beside it.
+  const LabelImage image = testing::make_image({40, 24, 20}, {1, 1, 1}, 2, [](const Vec3& p) {
+    const bool within = p.y >= 3 && p.y < 21;
+    const bool in_plate = within && p.x >= 3 && p.x < 21 && p.z >= 9 && p.z < 10;
+    const bool in_block = within && p.x >= 25 && p.x < 37 && p.z >= 4 && p.z < 16;
+    return in_plate ? 1 : in_block ? 2 : 0;
+  });
+  MeshImageOptions options = preset_options("quality", image.frame);
+  MeshImageReport report;
+  const Mesh fitting = mesh_of(image, options, report);
+  options.improve.edges_per_thickness = 0;
+  const Mesh flat = mesh_of(image, options, report);
+  const auto [ratio, tets] = shape_of_label(fitting, 1);
+  const auto [flat_ratio, flat_tets] = shape_of_label(flat, 1);
+  EXPECT_GT(ratio, 1.15 * flat_ratio);
+  EXPECT_LT(tets, 3 * flat_tets);
+  EXPECT_NEAR(static_cast<double>(shape_of_label(fitting, 2).second),
+              static_cast<double>(shape_of_label(flat, 2).second), 0.05 * static_cast<double>(flat_tets));
 }
 
 TEST(MeshImage, ADialWithoutEffectIsRefused) {

@@ -289,6 +289,14 @@ std::vector<OptionRow> improvement_rows() {
                    "times "
                    "the distance to it"},
           [](auto& o) -> auto& { return o.improve.gradation; }, kNotNegative),
+      number(
+          {.name = "edges-per-thickness",
+           .group = kGroup,
+           .symbol = "C",
+           .text =
+               "in thin parts the decimation makes edges of surfaces about C times as long as the part is "
+               "thick; 0: as long as elsewhere"},
+          [](auto& o) -> auto& { return o.improve.edges_per_thickness; }, kNotNegative),
   };
 }
 

@@ -99,6 +99,9 @@ class EdgeCollapser {
     }
     if (on_facets_) {
       longest = std::min(longest, options_.longest_on_surface_mm);
+      if (!patch_.longest_on_interface_mm.empty()) {
+        longest = std::min(longest, patch_.longest_on_interface_mm[u]);
+      }
     }
     longest_squared_ = longest * longest;
   }

@@ -240,6 +240,9 @@ Patch make_patch(LocalMesh& local, const PatchRules& rules, const SamplesOfVerti
   for (std::size_t v = 0; !rules.longest_mm.empty() && v < local.vertices.size(); ++v) {
     patch.longest_mm.push_back(rules.longest_mm[local.vertices[v]]);
   }
+  for (std::size_t v = 0; !rules.longest_on_interface_mm.empty() && v < local.vertices.size(); ++v) {
+    patch.longest_on_interface_mm.push_back(rules.longest_on_interface_mm[local.vertices[v]]);
+  }
   patch.sets.resize(local.vertices.size());
   patch.cover.resize(local.vertices.size());
   set_up_vertices(patch, local.tets_at);

@@ -23,8 +23,9 @@ struct PatchRules {
   /// Of the first vertices, nonzero: stays, with the tets between such vertices; not on interfaces; empty:
   /// none.
   std::span<const std::uint8_t> fixed = {};
-  std::span<const double> longest_mm = {};         ///< Patch::longest_mm of every vertex; empty: no limit
-  std::span<const double> smoothness_cap_mm = {};  ///< of every material, see Patch; empty: no limit
+  std::span<const double> longest_mm = {};  ///< Patch::longest_mm of every vertex; empty: no limit
+  std::span<const double> longest_on_interface_mm = {};  ///< Patch's, of every vertex; empty: no limit
+  std::span<const double> smoothness_cap_mm = {};        ///< of every material, see Patch; empty: no limit
 };
 
 /// Cuts the mesh, calls improve(patch) for every patch in parallel, and puts the results back. `covering` has

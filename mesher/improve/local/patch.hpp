@@ -50,6 +50,8 @@ struct Patch {
   std::span<const double> smoothness_cap_mm = {};
   /// No inner vertex vanishes for edges longer than the mean of this at their ends, mm; empty: no limit.
   std::vector<double> longest_mm = {};
+  /// Collapses at a vertex on an interface leave no edge longer than this, mm; empty: no limit.
+  std::vector<double> longest_on_interface_mm = {};
 
   // Scratch of the operations.
   std::vector<TetId> star = {}, star_other = {};
