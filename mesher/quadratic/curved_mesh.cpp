@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
+#include "mesher/quadratic/node_offsets.hpp"
 #include "mesher/quadratic/tet_jacobian.hpp"
 #include "mesher/topology/interface_facets.hpp"
 
@@ -27,22 +31,30 @@ struct EdgeMaterials {
   }
 };
 
+/// How an edge's node can leave the middle; where it cannot, both are zero.
+struct NodeMove {
+  Vec3 to_boundary_mm;  ///< local
+  Vec3 outwards;        ///< unit, away from the lower material
+};
+
 class Curver {
  public:
   Curver(const MaterialMesh& mesh, const ImageDomain& domain, const CurveOptions& options)
       : mesh_(mesh),
         domain_(domain),
         options_(options),
+        offsets_(domain),
         quadratic_(straight_quadratic_mesh(to_physical_mesh(mesh, domain.image()))) {}
 
   QuadraticMesh run(CurveReport& report) {
+    facets_ = interface_facets(mesh_, cells_of_vertices(mesh_));
     find_boundary_edges();
     find_moves();
+    halvings_.assign(edge_count(), 0);
     place_nodes();
-    const std::vector<std::size_t> tets = tets_with_moves();
-    while (hold_back(tets)) {
-    }
-    describe(tets, report);
+    tets_ = tets_with_nodes_that_move();
+    settle_volumes();
+    describe(report);
     return std::move(quadratic_);
   }
 
@@ -57,14 +69,13 @@ class Curver {
 
   void find_boundary_edges() {
     materials_.resize(edge_count());
-    for (const InterfaceFacet& facet : interface_facets(mesh_, cells_of_vertices(mesh_))) {
+    for (const InterfaceFacet& facet : facets_) {
       for (std::size_t n = 0; n < 3; ++n) {
         materials_[number_of(facet.nodes[n], facet.nodes[(n + 1) % 3])].meet(facet.lower, facet.higher);
       }
     }
   }
 
-  /// Moves in local mm; zero where there is none.
   void find_moves() {
     moves_.resize(edge_count());
 #pragma omp parallel for schedule(dynamic, 256)
@@ -73,25 +84,25 @@ class Curver {
     }
   }
 
-  [[nodiscard]] Vec3 move_of(std::size_t e) const {
+  /// Newton's method along the normals. No tet's shape is asked here: whole_move_mm() cuts what is too long.
+  [[nodiscard]] NodeMove move_of(std::size_t e) const {
     constexpr int kSteps = 4;
     const auto [a, b] = quadratic_.edges[e];
     const Vec3 middle = 0.5 * (mesh_.points[a] + mesh_.points[b]);
-    const BoundaryDistance at_a = distance(mesh_.points[a], e), at_b = distance(mesh_.points[b], e);
-    if (!at_a.is_close || !at_b.is_close) return {};
-    const double wanted_mm = 0.5 * (at_a.distance_mm + at_b.distance_mm);
-    const double most_mm = options_.greatest_move * (mesh_.points[a] - mesh_.points[b]).norm();
+    BoundaryDistance here = distance(middle, e);
+    const double before_mm = std::fabs(here.distance_mm);
     Vec3 at = middle;
-    double before_mm = 0, after_mm = 0;
-    for (int step = 0; step <= kSteps; ++step) {
-      const BoundaryDistance here = distance(at, e);
-      if (!here.is_close) return {};
-      after_mm = std::fabs(here.distance_mm - wanted_mm);
-      if (step == 0) before_mm = after_mm;
-      if (step < kSteps) at += (wanted_mm - here.distance_mm) * here.normal;
-      if ((at - middle).norm() > most_mm) return {};
+    for (int step = 0; step < kSteps && here.is_close; ++step) {
+      at -= here.distance_mm * here.normal;
+      here = distance(at, e);
     }
-    return after_mm < before_mm ? at - middle : Vec3{};
+    if (!here.is_close || std::fabs(here.distance_mm) > before_mm) return {};
+    return {.to_boundary_mm = at - middle, .outwards = -1 * here.normal};
+  }
+
+  [[nodiscard]] double greatest_move_mm(std::size_t e) const {
+    const auto [a, b] = quadratic_.edges[e];
+    return options_.greatest_move * (mesh_.points[a] - mesh_.points[b]).norm();
   }
 
   [[nodiscard]] BoundaryDistance distance(const Vec3& at, std::size_t e) const {
@@ -99,80 +110,155 @@ class Curver {
   }
 
   void place_nodes() {
-    halvings_.assign(edge_count(), 0);
+#pragma omp parallel for schedule(static)
     for (std::size_t e = 0; e < edge_count(); ++e) place_node(e);
+    is_new_.assign(edge_count(), 1);
   }
 
   void place_node(std::size_t e) {
     const auto [a, b] = quadratic_.edges[e];
-    const double share = halvings_[e] >= kMostHalvings ? 0 : std::ldexp(1.0, -halvings_[e]);
-    quadratic_.points[quadratic_.corners + e] = 0.5 * (quadratic_.points[a] + quadratic_.points[b]) +
-                                                share * (domain_.image().frame.direction * moves_[e]);
+    quadratic_.points[quadratic_.corners + e] =
+        0.5 * (quadratic_.points[a] + quadratic_.points[b]) +
+        share_of(e) * (domain_.image().frame.direction * whole_move_mm(e));
   }
 
+  /// To the boundary and the offset beyond it, if no tet suffers.
+  [[nodiscard]] Vec3 whole_move_mm(std::size_t e) const {
+    const auto& [to_boundary_mm, outwards] = moves_[e];
+    const Vec3 move =
+        to_boundary_mm + offsets_.between_mm(materials_[e].lower, materials_[e].higher) * outwards;
+    const double length_mm = move.norm(), most_mm = greatest_move_mm(e);
+    return length_mm > most_mm ? move * (most_mm / length_mm) : move;
+  }
+
+  /// What a move keeps of its whole length.
+  [[nodiscard]] double share_of(std::size_t e) const {
+    return halvings_[e] >= kMostHalvings ? 0 : std::ldexp(1.0, -halvings_[e]);
+  }
+
+  [[nodiscard]] bool may_move(std::size_t e) const {
+    return moves_[e].outwards.squared_norm() > 0;
+  }
   [[nodiscard]] bool is_moved(std::size_t e) const {
-    return halvings_[e] < kMostHalvings && moves_[e].squared_norm() > 0;
+    return may_move(e) && halvings_[e] < kMostHalvings;
   }
 
-  [[nodiscard]] std::vector<std::size_t> tets_with_moves() const {
+  [[nodiscard]] std::size_t edge_of(std::size_t tet, std::size_t node) const {
+    return quadratic_.tets.nodes[tet][node] - quadratic_.corners;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> tets_with_nodes_that_move() const {
     std::vector<std::size_t> found;
     for (std::size_t t = 0; t < quadratic_.tets.size(); ++t) {
-      const auto& nodes = quadratic_.tets.nodes[t];
-      if (std::any_of(nodes.begin() + 4, nodes.end(),
-                      [&](VertexId v) { return is_moved(v - quadratic_.corners); })) {
-        found.push_back(t);
-      }
+      bool moves = false;
+      for (std::size_t n = 4; n < 10; ++n) moves |= may_move(edge_of(t, n));
+      if (moves) found.push_back(t);
     }
     return found;
   }
 
-  [[nodiscard]] double jacobian_of(std::size_t t) const {
+  [[nodiscard]] std::array<Vec3, 10> nodes_of(std::size_t t) const {
     std::array<Vec3, 10> places;
     for (std::size_t n = 0; n < 10; ++n) places[n] = quadratic_.points[quadratic_.tets.nodes[t][n]];
-    return least_relative_jacobian(places);
+    return places;
+  }
+
+  /// Tets may hold nodes back after an update, so that it takes some.
+  void settle_volumes() {
+    constexpr int kRounds = 8;
+    for (int round = 0;; ++round) {
+      while (hold_back()) {
+      }
+      measure_tets();
+      const std::vector<OffsetArea> areas = offset_areas();
+      if (round == kRounds || !offsets_.can_improve(volume_mm3_, areas)) return;
+      offsets_.update(volume_mm3_, areas);
+      place_nodes();
+    }
+  }
+
+  /// A third of the facets around each edge, as its node's share lets it move them.
+  [[nodiscard]] std::vector<OffsetArea> offset_areas() const {
+    std::map<std::pair<MaterialId, MaterialId>, double> areas;
+    for (const InterfaceFacet& facet : facets_) {
+      const auto& n = facet.nodes;
+      const Vec3& p = mesh_.points[n[0]];
+      const Vec3 third = (mesh_.points[n[1]] - p).cross(mesh_.points[n[2]] - p) / 6;
+      double& area_mm2 = areas[{facet.lower, facet.higher}];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t e = number_of(n[k], n[(k + 1) % 3]);
+        area_mm2 += share_of(e) * third.dot(moves_[e].outwards);
+      }
+    }
+    std::vector<OffsetArea> found;
+    found.reserve(areas.size());
+    for (const auto& [pair, area_mm2] : areas) found.push_back({pair.first, pair.second, area_mm2});
+    return found;
+  }
+
+  /// Measured in parallel, added up in the order of the tets: sums depend on it.
+  void measure_tets() {
+    tet_mm3_.resize(mesh_.tets.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t t = 0; t < tet_mm3_.size(); ++t) tet_mm3_[t] = volume_of_quadratic_tet(nodes_of(t));
+    volume_mm3_.assign(domain_.labels().size(), 0);
+    for (std::size_t t = 0; t < tet_mm3_.size(); ++t) volume_mm3_[mesh_.materials[t]] += tet_mm3_[t];
   }
 
   /// Halves all moves of every tet whose Jacobian is too small. False when there was none.
-  bool hold_back(const std::vector<std::size_t>& tets) {
-    std::vector<std::uint8_t> suffers(tets.size());
-#pragma omp parallel for schedule(static)
-    for (std::size_t n = 0; n < tets.size(); ++n)
-      suffers[n] = jacobian_of(tets[n]) < options_.least_jacobian ? 1 : 0;
-    std::vector<std::size_t> edges;
-    for (std::size_t n = 0; n < tets.size(); ++n) {
+  bool hold_back() {
+    const std::vector<std::uint8_t> suffers = suffering_tets();
+    std::fill(is_new_.begin(), is_new_.end(), 0);
+    bool any = false;
+    for (std::size_t n = 0; n < tets_.size(); ++n) {
       for (std::size_t k = 4; suffers[n] != 0 && k < 10; ++k) {
-        const std::size_t e = quadratic_.tets.nodes[tets[n]][k] - quadratic_.corners;
-        if (is_moved(e)) edges.push_back(e);
+        const std::size_t e = edge_of(tets_[n], k);
+        if (is_new_[e] != 0 || !is_moved(e)) continue;
+        is_new_[e] = 1;
+        any = true;
+        ++halvings_[e];
+        place_node(e);
       }
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    for (const std::size_t e : edges) {
-      ++halvings_[e];
-      place_node(e);
-    }
-    return !edges.empty();
+    return any;
   }
 
-  void describe(const std::vector<std::size_t>& tets, CurveReport& report) const {
+  /// Of those with a new place of a node.
+  [[nodiscard]] std::vector<std::uint8_t> suffering_tets() const {
+    std::vector<std::uint8_t> suffers(tets_.size());
+#pragma omp parallel for schedule(static)
+    for (std::size_t n = 0; n < tets_.size(); ++n) {
+      bool is_new = false;
+      for (std::size_t k = 4; k < 10; ++k) is_new |= is_new_[edge_of(tets_[n], k)] != 0;
+      suffers[n] = is_new && least_relative_jacobian(nodes_of(tets_[n])) < options_.least_jacobian ? 1 : 0;
+    }
+    return suffers;
+  }
+
+  void describe(CurveReport& report) const {
     report = {};
     for (std::size_t e = 0; e < edge_count(); ++e) {
-      const bool had_move = moves_[e].squared_norm() > 0;
       report.boundary_edges += materials_[e].on_boundary ? 1 : 0;
       report.curved += is_moved(e) ? 1 : 0;
       report.held_back += is_moved(e) && halvings_[e] > 0 ? 1 : 0;
-      report.straight += had_move && !is_moved(e) ? 1 : 0;
+      report.straight += may_move(e) && !is_moved(e) ? 1 : 0;
     }
-    for (const std::size_t t : tets) report.least_jacobian = std::min(report.least_jacobian, jacobian_of(t));
+    for (const std::size_t t : tets_)
+      report.least_jacobian = std::min(report.least_jacobian, least_relative_jacobian(nodes_of(t)));
   }
 
   const MaterialMesh& mesh_;
   const ImageDomain& domain_;
   const CurveOptions& options_;
+  NodeOffsets offsets_;
   QuadraticMesh quadratic_;
+  std::vector<InterfaceFacet> facets_;
   std::vector<EdgeMaterials> materials_;
-  std::vector<Vec3> moves_;
+  std::vector<NodeMove> moves_;
   std::vector<int> halvings_;
+  std::vector<std::uint8_t> is_new_;  // edges whose nodes have a new place, which no tet has seen
+  std::vector<std::size_t> tets_;     // with nodes that move
+  std::vector<double> tet_mm3_, volume_mm3_;
 };
 
 }  // namespace

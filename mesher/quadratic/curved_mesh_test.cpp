@@ -1,14 +1,17 @@
-// Edges of a ball's mesh follow its surface, none at a tet's cost.
+// Edges of a ball's mesh follow its surface, none at a tet's cost, and its parts keep their volumes.
 #include "mesher/quadratic/curved_mesh.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesher/core/error.hpp"
 #include "mesher/quadratic/tet_jacobian.hpp"
 #include "mesher/testing/kuhn_box.hpp"
 #include "mesher/testing/test_images.hpp"
+#include "mesher/testing/thread_counts.hpp"
+#include "mesher/topology/interface_facets.hpp"
 
 namespace cbc3d {
 namespace {
@@ -29,14 +32,53 @@ MaterialMesh ball_mesh() {
   return mesh;
 }
 
-double volume_of(const QuadraticMesh& mesh) {
-  double sum = 0;
-  for (const auto& tet : mesh.tets.nodes) {
+std::vector<double> volumes_of(const QuadraticMesh& mesh) {
+  std::vector<double> sums(3);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     std::array<Vec3, 10> nodes;
-    for (std::size_t n = 0; n < 10; ++n) nodes[n] = mesh.points[tet[n]];
-    sum += volume_of_quadratic_tet(nodes);
+    for (std::size_t n = 0; n < 10; ++n) nodes[n] = mesh.points[mesh.tets.nodes[t][n]];
+    sums[static_cast<std::size_t>(mesh.tets.labels[t])] += volume_of_quadratic_tet(nodes);
   }
-  return sum;
+  return sums;
+}
+
+double volume_of(const QuadraticMesh& mesh) {
+  const std::vector<double> sums = volumes_of(mesh);
+  return sums[1] + sums[2];
+}
+
+/// The ball with a core of material 2 about half as wide. Vertices lie beyond the boundaries by as much as
+/// gives flat facets the volumes of the image's voxels, as those of the mesher do.
+MaterialMesh mesh_of_ball_and_core(const ImageDomain& domain) {
+  constexpr double kCore = 7;  // mm; a layer of vertices is at 6.13, the next at 8.87
+  const Vec3 centre{15.5, 15.5, 15.5};
+  MaterialMesh mesh = ball_mesh();
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& tet = mesh.tets[t];
+    const auto is_inside = [&](VertexId v) { return (mesh.points[v] - centre).norm() < kCore; };
+    mesh.materials[t] = std::all_of(tet.begin(), tet.end(), is_inside) ? 2 : 1;
+  }
+  const auto flat = volumes_of(straight_quadratic_mesh(to_physical_mesh(mesh, domain.image())));
+  const auto& wanted = domain.volumes_mm3();
+  const double of_core = std::cbrt(wanted[2] / flat[2]);
+  const double of_ball = std::cbrt((wanted[1] + wanted[2]) / (flat[1] + flat[2]));
+  for (Vec3& p : mesh.points) p = centre + ((p - centre).norm() < kCore ? of_core : of_ball) * (p - centre);
+  return mesh;
+}
+
+/// Of the nodes in the middle of boundary edges.
+double mean_distance_mm(const QuadraticMesh& mesh, const MaterialMesh& flat, const ImageDomain& domain) {
+  double sum = 0, count = 0;
+  for (const InterfaceFacet& facet : interface_facets(flat, cells_of_vertices(flat))) {
+    for (std::size_t n = 0; n < 3; ++n) {
+      const auto [low, high] = std::minmax(facet.nodes[n], facet.nodes[(n + 1) % 3]);
+      const auto e = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), std::array{low, high});
+      const Vec3& node = mesh.points[mesh.corners + static_cast<std::size_t>(e - mesh.edges.begin())];
+      sum += std::fabs(domain.boundary_distance(node, facet.lower, facet.higher).distance_mm);
+      ++count;
+    }
+  }
+  return sum / count;
 }
 
 TEST(CurvedMesh, FollowsABall) {
@@ -56,6 +98,34 @@ TEST(CurvedMesh, FollowsABall) {
     for (std::size_t n = 0; n < 10; ++n) nodes[n] = curved.points[tet[n]];
     EXPECT_GE(least_relative_jacobian(nodes), 0.5);
   }
+}
+
+TEST(CurvedMesh, EveryPartKeepsItsVolume) {
+  const LabelImage image = testing::ball_image(32, 1, 12, 6.13);
+  const ImageDomain domain(image);
+  const MaterialMesh mesh = mesh_of_ball_and_core(domain);
+  CurveReport report;
+  const QuadraticMesh curved = curved_quadratic_mesh(mesh, domain, {}, report);
+  const QuadraticMesh straight = straight_quadratic_mesh(to_physical_mesh(mesh, image));
+  const auto &wanted = domain.volumes_mm3(), of_curved = volumes_of(curved),
+             of_straight = volumes_of(straight);
+  for (std::size_t m = 1; m <= 2; ++m) {
+    EXPECT_NEAR(of_straight[m] / wanted[m], 1, 1e-9);
+    EXPECT_NEAR(of_curved[m] / wanted[m], 1, 2e-4);
+  }
+  EXPECT_GE(report.least_jacobian, 0.5);
+  EXPECT_GT(report.curved, report.boundary_edges / 2);
+  EXPECT_LT(mean_distance_mm(curved, mesh, domain), mean_distance_mm(straight, mesh, domain));
+}
+
+TEST(CurvedMesh, IsTheSameAtAnyNumberOfThreads) {
+  const LabelImage image = testing::ball_image(32, 1, 12, 6.13);
+  const ImageDomain domain(image);
+  const MaterialMesh mesh = mesh_of_ball_and_core(domain);
+  CurveReport report;
+  const std::vector<Vec3> expected = curved_quadratic_mesh(mesh, domain, {}, report).points;
+  testing::at_thread_counts(
+      [&] { EXPECT_EQ(curved_quadratic_mesh(mesh, domain, {}, report).points, expected); });
 }
 
 TEST(CurvedMesh, NoTetSuffersUnderAStricterBound) {

@@ -79,6 +79,41 @@ class Work(unittest.TestCase):
             for _ in range(1000):
                 cbc3d.mesh(two_balls(), SPACING)
 
+    def test_ctrl_c_ends_the_call_before_the_step_ends(self):
+        """By CPU time, which says how far the work has come however slow the machine is."""
+        balls = numpy.zeros((100, 100, 100), "uint8")
+        k, j, i = numpy.mgrid[:100, :100, :100]
+        for label, x in ((1, 30), (2, 65)):
+            balls[(i - x) ** 2 + (j - 50) ** 2 + (k - 50) ** 2 < 28 ** 2] = label
+        begins = []
+        cbc3d.mesh(balls, threads=1, progress=lambda *step: begins.append(time.process_time()))
+        seconds = numpy.diff(begins)
+        longest = int(seconds.argmax())
+
+        def interrupt_at(cpu_seconds):
+            while time.process_time() < cpu_seconds:
+                time.sleep(0.001)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        began, interrupters = [], []
+
+        def progress(stage, fraction):
+            began.append(time.process_time())
+            if len(began) == longest + 1:
+                interrupters.append(threading.Thread(target=interrupt_at, args=(began[-1] + 0.05 * seconds[longest],)))
+                interrupters[0].start()
+
+        with self.assertRaises(KeyboardInterrupt):
+            cbc3d.mesh(balls, threads=1, progress=progress)
+        spent = time.process_time() - began[-1]
+        while cbc3d._core.works_left_behind():
+            time.sleep(0.01)
+        interrupters[0].join()
+        # The signal comes after a twentieth of the step; a call that waited for the step's end would have spent the whole.
+        self.assertLess(spent, 0.6 * seconds[longest])
+        # What was left behind has ended at the next step, and did not ask the callback any more.
+        self.assertEqual(len(began), longest + 1)
+
     def test_other_threads_run_meanwhile(self):
         counted, ended = [0], threading.Event()
 
