@@ -32,6 +32,14 @@ void add_volumes(const CellBlock<Nodes>& block, const std::vector<Vec3>& points,
   }
 }
 
+std::map<Label, double> volumes_of_labels(const Mesh& mesh) {
+  std::map<Label, double> volume_mm3;
+  add_volumes(mesh.tets, mesh.points, kOfTet, volume_mm3);
+  add_volumes(mesh.pyramids, mesh.points, kOfPyramid, volume_mm3);
+  add_volumes(mesh.hexes, mesh.points, kOfHex, volume_mm3);
+  return volume_mm3;
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_findings(const Mesh& mesh, const MeshImageReport& report,
@@ -42,10 +50,8 @@ std::vector<std::string> mesh_findings(const Mesh& mesh, const MeshImageReport& 
         std::to_string(report.improve.self_intersections_left) +
         " pairs of facets intersect; a smaller lattice_spacing_mm or max_distance_mm leaves fewer");
   }
-  std::map<Label, double> volume_mm3;
-  add_volumes(mesh.tets, mesh.points, kOfTet, volume_mm3);
-  add_volumes(mesh.pyramids, mesh.points, kOfPyramid, volume_mm3);
-  add_volumes(mesh.hexes, mesh.points, kOfHex, volume_mm3);
+  const bool is_curved = !report.curve.volume_mm3.empty();
+  std::map<Label, double> volume_mm3 = is_curved ? report.curve.volume_mm3 : volumes_of_labels(mesh);
   const double voxel_mm3 = frame.spacing_mm.x * frame.spacing_mm.y * frame.spacing_mm.z;
   for (const LabelChange& label : report.clean.labels) {
     const double wanted = static_cast<double>(label.voxels_after) * voxel_mm3;

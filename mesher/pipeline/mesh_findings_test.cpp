@@ -27,6 +27,18 @@ TEST(MeshFindings, NameVolumesThatAreOff) {
   EXPECT_NE(smaller[0].find("10.0 % smaller"), std::string::npos) << smaller[0];
 }
 
+TEST(MeshFindings, OfOrderTwoTheCurvedVolumesCount) {
+  MeshImageReport report;
+  report.clean.labels = {{.label = 4, .voxels_before = 100, .voxels_after = 100}};
+  ImageFrame frame;
+  frame.spacing_mm = {1, 1, 1};
+  EXPECT_EQ(mesh_findings(tet_of(95), report, frame).size(), 1U);
+  report.curve.volume_mm3 = {{4, 100}};
+  EXPECT_TRUE(mesh_findings(tet_of(95), report, frame).empty());
+  report.curve.volume_mm3 = {{4, 90}};
+  EXPECT_EQ(mesh_findings(tet_of(100), report, frame).size(), 1U);
+}
+
 TEST(MeshFindings, NameSelfIntersections) {
   MeshImageReport report;
   report.improve.self_intersections_left = 3;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 
 #include "mesher/domain/image_domain.hpp"
 #include "mesher/topology/material_mesh.hpp"
@@ -25,10 +26,11 @@ struct CurveOptions {
 
 struct CurveReport {
   std::size_t boundary_edges = 0;
-  std::size_t curved = 0;     ///< boundary edges whose node moved
-  std::size_t held_back = 0;  ///< of them, those that moved less than they should for a tet's sake
-  std::size_t straight = 0;   ///< boundary edges that stayed straight for a tet's sake
-  double least_jacobian = 1;  ///< of all tets, as a share of the straight tet's
+  std::size_t curved = 0;              ///< boundary edges whose node moved
+  std::size_t held_back = 0;           ///< of them, those that moved less than they should for a tet's sake
+  std::size_t straight = 0;            ///< boundary edges that stayed straight for a tet's sake
+  double least_jacobian = 1;           ///< of all tets, as a share of the straight tet's
+  std::map<Label, double> volume_mm3;  ///< of every label's curved tets
 };
 
 /// The mesh in physical space with a node on every edge; vertices stay. The node of a boundary edge moves

@@ -112,6 +112,7 @@ TEST(CurvedMesh, EveryPartKeepsItsVolume) {
   for (std::size_t m = 1; m <= 2; ++m) {
     EXPECT_NEAR(of_straight[m] / wanted[m], 1, 1e-9);
     EXPECT_NEAR(of_curved[m] / wanted[m], 1, 2e-4);
+    EXPECT_NEAR(report.volume_mm3.at(static_cast<Label>(m)), of_curved[m], 1e-9 * of_curved[m]);
   }
   EXPECT_GE(report.least_jacobian, 0.5);
   EXPECT_GT(report.curved, report.boundary_edges / 2);
