@@ -41,12 +41,14 @@ void find_sides(const MaterialMesh& mesh, const TetNeighbours& neighbours, std::
   }
 }
 
-/// The length of the way from x inwards through the side's material. It may begin a little outside of it.
-double way_through(const Domain& domain, const Vec3& x, const Side& side, double step_mm, double largest_mm) {
+/// The length of the way from x inwards through the side's material, a cell at least. It may begin a little
+/// outside of it.
+double way_through(const Domain& domain, const Vec3& x, const Side& side, double cell_mm, double largest_mm) {
   const double length = side.normal.norm();
   if (!(length > 0)) {
     return kInfinity;
   }
+  const double step_mm = 0.25 * cell_mm;
   const Vec3 step = (-step_mm / length) * side.normal;
   constexpr int kStepsOutside = 4;
   const int most = static_cast<int>(std::ceil(largest_mm / step_mm));
@@ -56,7 +58,7 @@ double way_through(const Domain& domain, const Vec3& x, const Side& side, double
     if (is_inside && entered == 0) {
       entered = n;
     } else if (!is_inside && (entered > 0 || n > kStepsOutside)) {
-      return entered > 0 ? (n - entered) * step_mm : kInfinity;
+      return entered > 0 ? std::max(cell_mm, (n - entered) * step_mm) : kInfinity;
     }
   }
   return kInfinity;
@@ -68,7 +70,7 @@ std::vector<double> thickness_at_vertices(const MaterialMesh& mesh, const Domain
   std::vector<double> thickness(mesh.points.size(), kInfinity);
   const auto neighbours = tet_neighbours(mesh.tets, mesh.points.size());
   const VertexCells at = tets_of_vertices(mesh.tets, mesh.points.size());
-  const double step_mm = 0.25 * std::cbrt(domain.cell_mm3());
+  const double cell_mm = std::cbrt(domain.cell_mm3());
 #pragma omp parallel
   {
     std::vector<Side> sides;
@@ -76,7 +78,7 @@ std::vector<double> thickness_at_vertices(const MaterialMesh& mesh, const Domain
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
       find_sides(mesh, neighbours, at.of(static_cast<VertexId>(v)), static_cast<VertexId>(v), sides);
       for (const Side& side : sides) {
-        thickness[v] = std::min(thickness[v], way_through(domain, mesh.points[v], side, step_mm, largest_mm));
+        thickness[v] = std::min(thickness[v], way_through(domain, mesh.points[v], side, cell_mm, largest_mm));
       }
     }
   }
