@@ -243,7 +243,7 @@ class Curver {
       report.held_back += is_moved(e) && halvings_[e] > 0 ? 1 : 0;
       report.straight += may_move(e) && !is_moved(e) ? 1 : 0;
     }
-    for (MaterialId m = 1; m < volume_mm3_.size(); ++m)
+    for (std::size_t m = 1; m < volume_mm3_.size(); ++m)
       report.volume_mm3[domain_.labels()[m]] += volume_mm3_[m];
     for (const std::size_t t : tets_)
       report.least_jacobian = std::min(report.least_jacobian, least_relative_jacobian(nodes_of(t)));
