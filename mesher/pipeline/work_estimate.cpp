@@ -102,13 +102,13 @@ double work_of_lattice_s(std::size_t tets_of_rounds, std::size_t tets) {
 std::string why_long_work(const LabelImage& image, std::uintmax_t file_bytes) {
   if (file_bytes >= kSmallFileBytes) return "";
   const double seconds = estimated_cpu_seconds(boundary_kinds_of(image), image.frame);
-  if (seconds <= kSmallFileWorkLimit) return "";
+  if (seconds <= kSmallFileCpuSeconds) return "";
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "a file of %.1f KB alone, but its thin parts and boundaries may take minutes of CPU (about %.0f s, "
-      "give or take a factor of three)",
-      static_cast<double>(file_bytes) / 1024, seconds);
+  std::snprintf(text, sizeof text,
+                "a file of %.1f KB alone, but its thin parts and boundaries may take minutes of CPU (about "
+                "%.0f s, give or take "
+                "a factor of three)",
+                static_cast<double>(file_bytes) / 1024, seconds);
   return text;
 }
 

@@ -30,8 +30,9 @@ double estimated_cpu_seconds(const BoundaryKinds& kinds, const ImageFrame& frame
 
 /// A file smaller than this that asks for more work than that is more often a mistake, or made to keep a
 /// machine busy, than a wish. The size is set so that a real stent of 39 KB, which takes as long, passes.
-/// The estimate errs by a few times, so the lattice of a file that passes is held to the same limit.
+/// The estimate errs by a few times, so the lattice of a file that passes is held to a work limit too.
 inline constexpr std::uintmax_t kSmallFileBytes = 16384;
+inline constexpr double kSmallFileCpuSeconds = 30;
 inline constexpr double kSmallFileWorkLimit = 60;  ///< s
 
 /// MeshImageOptions::work_limit_s for a file of so many bytes: none (0) where it is not small, nor where an

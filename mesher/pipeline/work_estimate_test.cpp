@@ -59,7 +59,7 @@ TEST(WorkEstimate, ThinPartsAndLongVoxelsCostMore) {
 }
 
 TEST(WorkEstimate, OnlySmallFilesAreAskedAbout) {
-  const LabelImage walls = image_of(64, 1, [](int i, int, int) { return i % 3 == 0 ? 1 : 0; });
+  const LabelImage walls = image_of(48, 1, [](int i, int, int) { return i % 3 == 0 ? 1 : 0; });
   EXPECT_NE(why_long_work(walls, 1000), "");
   EXPECT_EQ(why_long_work(walls, kSmallFileBytes), "");
   EXPECT_EQ(why_long_work(boxed({5, 5, 5}), 100), "");
